@@ -1,0 +1,120 @@
+#include "common/file.hpp"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+namespace examples {
+namespace {
+
+// Parts that exist right now, for the signal handler, which may read nothing but lock-free atomics.
+std::array<std::atomic<const char*>, 64> open_parts{};
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+extern "C" void remove_parts_and_end(int signal) {
+    for (const std::atomic<const char*>& part : open_parts)
+        if (const char* path = part.load()) std::remove(path);
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+}
+
+void handle_signals() {
+    static const bool once = [] {
+        for (const int signal : {
+                 SIGINT,
+                 SIGTERM,
+#ifdef SIGHUP
+                 SIGHUP,
+#endif
+             })
+            // A signal that the caller (nohup, say) has set to be ignored stays ignored.
+            if (std::signal(signal, remove_parts_and_end) == SIG_IGN) std::signal(signal, SIG_IGN);
+#ifdef SIGXFSZ
+        std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit becomes a failed write instead
+#endif
+        return true;
+    }();
+    (void)once;
+}
+
+std::string reason_text(int reason) { return std::generic_category().message(reason); }
+
+}  // namespace
+
+std::vector<unsigned char> read_file(const std::filesystem::path& path) {
+    const auto fail = [&](int reason) { throw failure("cannot read " + path.string() + ": " + reason_text(reason)); };
+    std::FILE* file = std::fopen(path.string().c_str(), "rb");
+    if (file == nullptr) fail(errno);
+    std::vector<unsigned char> bytes;
+    std::array<unsigned char, 65536> chunk;
+    for (std::size_t n; (n = std::fread(chunk.data(), 1, chunk.size(), file)) > 0;)
+        bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + std::ptrdiff_t(n));
+    const int reason = std::ferror(file) ? errno : 0;
+    std::fclose(file);
+    if (reason != 0) fail(reason);
+    return bytes;
+}
+
+output_file::output_file(std::filesystem::path target) : target_(std::move(target)), part_(target_.string() + ".part") {
+    handle_signals();
+    std::error_code ignored;
+    if (std::filesystem::is_directory(target_, ignored)) fail(EISDIR);
+    // Known to the handler before it exists, so that no moment is left in which a signal leaves it behind.
+    bool noted = false;
+    for (std::atomic<const char*>& part : open_parts) {
+        const char* empty = nullptr;
+        if ((noted = part.compare_exchange_strong(empty, part_.c_str()))) break;
+    }
+    if (!noted) fail(EMFILE);
+    file_ = std::fopen(part_.c_str(), "wb");
+    if (file_ != nullptr) return;
+    const int reason = errno;
+    forget();
+    fail(reason);
+}
+
+output_file::~output_file() {
+    if (part_.empty()) return;
+    if (file_ != nullptr) std::fclose(file_);
+    std::remove(part_.c_str());
+    forget();
+}
+
+void output_file::write(std::span<const std::byte> bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(errno);
+}
+
+void output_file::close() {
+    if (file_ == nullptr) return;
+    const bool failed = std::fflush(file_) != 0;
+    const int reason = errno;
+    const bool close_failed = std::fclose(file_) != 0;
+    file_ = nullptr;
+    if (failed || close_failed) fail(failed ? reason : errno);
+}
+
+void output_file::commit() {
+    close();
+    std::error_code error;
+    std::filesystem::rename(part_, target_, error);
+    if (error) fail(error.value());
+    forget();
+    part_.clear();
+}
+
+void output_file::fail(int reason) const {
+    throw failure("cannot write " + target_.string() + ": " + reason_text(reason));
+}
+
+void output_file::forget() noexcept {
+    for (std::atomic<const char*>& part : open_parts) {
+        const char* mine = part_.c_str();
+        if (part.compare_exchange_strong(mine, nullptr)) return;
+    }
+}
+
+}  // namespace examples

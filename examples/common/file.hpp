@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace examples {
+
+// What the programs throw where they cannot go on; its text is for a person and names the file or option.
+struct failure : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// All bytes of a file. Throws failure.
+[[nodiscard]] std::vector<unsigned char> read_file(const std::filesystem::path& path);
+
+// A file that exists whole or not at all: bytes go to `target` + ".part", which commit() gives its name.
+// Without a commit, after any failure and on SIGINT, SIGTERM and SIGHUP, the part is removed.
+class output_file {
+public:
+    // Opens the part, so that a folder that cannot be written is known before any work. Throws failure.
+    explicit output_file(std::filesystem::path target);
+    ~output_file();
+    output_file(const output_file&) = delete;
+    output_file& operator=(const output_file&) = delete;
+
+    void write(std::span<const std::byte> bytes);
+    void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+    // Flushes and closes the part; a full disk is found here at the latest.
+    void close();
+    // Closes and renames. Replaces a file that was there.
+    void commit();
+
+    [[nodiscard]] const std::filesystem::path& target() const { return target_; }
+
+private:
+    [[noreturn]] void fail(int reason) const;
+    void forget() noexcept;
+
+    std::filesystem::path target_;
+    std::string part_;
+    std::FILE* file_ = nullptr;
+};
+
+}  // namespace examples

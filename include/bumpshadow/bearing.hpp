@@ -1,0 +1,235 @@
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <type_traits>
+
+#include <glm/ext/vector_double2.hpp>
+#include <glm/ext/vector_float2.hpp>
+
+namespace bumpshadow {
+
+// A bearing is a direction in the surface as a fraction of a turn, in [0, 1): 0 along +x, 0.25 along +y.
+//
+//   function             max. error   cost besides choosing the quadrant     inverse
+//   exact_bearing        rounding     division, arc tangent                  sine, cosine
+//   quintic_bearing        0.04 deg   division, 4 multiply-adds              3 Newton steps
+//   quadratic_bearing      0.21 deg   division, 2 multiply-adds              closed form
+//   octant_bearing         1.90 deg   division, reciprocal square root       closed form
+//   diamond_bearing        4.07 deg   2 divisions                            closed form
+//
+// All take vectors of any length, whose squares may overflow or vanish; the zero vector has bearing 0. All are
+// continuous and grow with the true angle, agree at the multiples of 1/8 turn and have the symmetry of the square.
+// The error is the largest angle between a vector and what exact_direction makes of its bearing. The inverses,
+// X_direction, take any finite bearing and return the unit vector whose X_bearing it is. Horizons that a shader looks
+// up through X_bearing are baked in the directions of X_direction. Vectors and bearings have to be finite.
+
+// Degrees. Measured over all directions.
+inline constexpr double quintic_max_error = 0.0403;
+inline constexpr double quadratic_max_error = 0.2144;
+inline constexpr double octant_max_error = 1.8967;
+inline constexpr double diamond_max_error = 4.0749;
+
+template <class T>
+concept bearing_scalar = std::same_as<T, float> || std::same_as<T, double>;
+
+namespace bearing_detail {
+
+// A vector relative to the nearest axis: bearing of that axis, and tangent of the angle from there, in [-1, 1].
+template <bearing_scalar T>
+struct quadrant_position {
+    T axis;
+    T ratio;
+};
+
+template <bearing_scalar T>
+[[nodiscard]] inline quadrant_position<T> fold(glm::vec<2, T> v) {
+    if (std::abs(v.y) > std::abs(v.x)) return {v.y > T(0) ? T(0.25) : T(0.75), -v.x / v.y};
+    return {v.x >= T(0) ? T(0) : T(0.5), v.x != T(0) ? v.y / v.x : T(0)};
+}
+
+// Into [0, 1). A fraction just below 0 would round to 1, so it ends at the last number before.
+template <bearing_scalar T>
+[[nodiscard]] inline T wrap_bearing(T bearing) {
+    const T fraction = bearing - std::floor(bearing);
+    constexpr T last = T(1) - std::numeric_limits<T>::epsilon() / T(2);
+    return fraction < last ? fraction : last;
+}
+
+template <bearing_scalar T>
+struct bearing_position {
+    int quarter;  // nearest axis in quarter turns, 0 to 4
+    T offset;     // turns from there, in [-1/8, 1/8]
+};
+
+template <bearing_scalar T>
+[[nodiscard]] inline bearing_position<T> split(T bearing) {
+    const T fraction = bearing - std::floor(bearing);
+    const T quarter = std::floor(T(4) * fraction + T(0.5));
+    return {static_cast<int>(quarter), fraction - T(0.25) * quarter};
+}
+
+template <bearing_scalar T>
+[[nodiscard]] inline glm::vec<2, T> quarter_turns(int quarters, glm::vec<2, T> v) {
+    // Adding 0 makes +0 of -0.
+    switch (quarters & 3) {
+        case 0: return {v.x, v.y};
+        case 1: return {T(0) - v.y, v.x};
+        case 2: return {T(0) - v.x, T(0) - v.y};
+        default: return {v.y, T(0) - v.x};
+    }
+}
+
+template <bearing_scalar T>
+[[nodiscard]] inline glm::vec<2, T> unfold(int quarters, T ratio) {
+    const T x = std::sqrt(T(1) / (T(1) + ratio * ratio));
+    return quarter_turns(quarters, glm::vec<2, T>(x, x * ratio));
+}
+
+// The corrections below are minimax fits of atan(a) / (2 pi) on [0, 1] that are exact at 0 and 1 (Remez exchange on the
+// form as it is written, in double).
+template <bearing_scalar T>
+inline constexpr T quadratic_coefficient = T(0.043462260287482374);
+template <bearing_scalar T>
+inline constexpr T quintic_coefficients[2] = {T(0.0333219335440238), T(-0.012106330476759292)};
+
+template <bearing_scalar T>
+[[nodiscard]] constexpr T quintic(T a) {
+    const T q = a * a;
+    return a * (T(0.125) + (T(1) - q) * (quintic_coefficients<T>[0] + quintic_coefficients<T>[1] * q));
+}
+
+template <bearing_scalar T>
+[[nodiscard]] constexpr T quintic_derivative(T a) {
+    constexpr T c0 = quintic_coefficients<T>[0], c1 = quintic_coefficients<T>[1];
+    const T q = a * a;
+    return T(0.125) + c0 + q * (T(3) * (c1 - c0) - T(5) * c1 * q);
+}
+
+// Solves for the ratio; offset in [-1/8, 1/8].
+template <bearing_scalar T>
+[[nodiscard]] inline T quadratic_ratio(T offset) {
+    constexpr T k = quadratic_coefficient<T>;
+    constexpr T b = T(0.125) + k;
+    return T(2) * offset / (b + std::sqrt(b * b - T(4) * k * std::abs(offset)));
+}
+
+}  // namespace bearing_detail
+
+// The true angle.
+template <bearing_scalar T>
+[[nodiscard]] inline T exact_bearing(glm::vec<2, T> v) {
+    const auto [axis, ratio] = bearing_detail::fold(v);
+    return bearing_detail::wrap_bearing(axis + std::atan(ratio) * T(0.15915494309189533577));
+}
+
+// Multiples of 1/8 turn give exactly (1, 0), (s, s), (0, 1) and so on; bearings that mirror each other at one of these
+// directions, as far as they can be written exactly, give exact mirror images.
+template <bearing_scalar T>
+[[nodiscard]] inline glm::vec<2, T> exact_direction(T bearing) {
+    const auto [quarter, offset] = bearing_detail::split(bearing);
+    if (std::abs(offset) == T(0.125)) return bearing_detail::unfold(quarter, T(8) * offset);
+    const T angle = offset * T(6.28318530717958647693);
+    return bearing_detail::quarter_turns(quarter, glm::vec<2, T>(std::cos(angle), std::sin(angle)));
+}
+
+// Forsyth's piecewise linear function: in each quadrant around an axis, the component of the unit vector across that
+// axis. phase: the bearing that comes out as 0. The published listing starts at 45 degrees, octant_published_phase;
+// its rounded constants (0.707 and 0.25 / 1.414) return slightly more than 1 at (0.7071, 0.7071), which this does not.
+// Source: Forsyth, Self-shadowing Bumpmap using 3D Texture Hardware, section 4.1.
+inline constexpr double octant_published_phase = 0.125;
+
+template <bearing_scalar T>
+[[nodiscard]] inline T octant_bearing(glm::vec<2, T> v, std::type_identity_t<T> phase = T(0)) {
+    const auto [axis, ratio] = bearing_detail::fold(v);
+    const T offset = T(0.125) * ratio / std::sqrt(T(0.5) + T(0.5) * ratio * ratio);
+    return bearing_detail::wrap_bearing(axis + offset - phase);
+}
+
+template <bearing_scalar T>
+[[nodiscard]] inline glm::vec<2, T> octant_direction(T bearing, std::type_identity_t<T> phase = T(0)) {
+    const auto [quarter, offset] = bearing_detail::split(bearing + phase);
+    const T twice_square = T(64) * offset * offset;  // 2 sin^2
+    return bearing_detail::unfold(quarter, T(8) * offset / std::sqrt(T(2) - twice_square));
+}
+
+// The perimeter of the diamond |x| + |y| = 1. No square root, and twice the octant's error.
+template <bearing_scalar T>
+[[nodiscard]] inline T diamond_bearing(glm::vec<2, T> v) {
+    const auto [axis, ratio] = bearing_detail::fold(v);
+    return bearing_detail::wrap_bearing(axis + T(0.25) * ratio / (T(1) + std::abs(ratio)));
+}
+
+template <bearing_scalar T>
+[[nodiscard]] inline glm::vec<2, T> diamond_direction(T bearing) {
+    const auto [quarter, offset] = bearing_detail::split(bearing);
+    return bearing_detail::unfold(quarter, T(4) * offset / (T(1) - T(4) * std::abs(offset)));
+}
+
+// a (1/8 + c (1 - |a|)), a being the ratio of the components: a ninth of the octant's error for less work.
+template <bearing_scalar T>
+[[nodiscard]] inline T quadratic_bearing(glm::vec<2, T> v) {
+    const auto [axis, ratio] = bearing_detail::fold(v);
+    const T correction = bearing_detail::quadratic_coefficient<T> * (T(1) - std::abs(ratio));
+    return bearing_detail::wrap_bearing(axis + ratio * (T(0.125) + correction));
+}
+
+template <bearing_scalar T>
+[[nodiscard]] inline glm::vec<2, T> quadratic_direction(T bearing) {
+    const auto [quarter, offset] = bearing_detail::split(bearing);
+    return bearing_detail::unfold(quarter, bearing_detail::quadratic_ratio(offset));
+}
+
+// a (1/8 + (1 - a^2) (c0 + c1 a^2)), a being the ratio of the components: the error no longer matters beside that of
+// interpolating a horizon between slices.
+template <bearing_scalar T>
+[[nodiscard]] inline T quintic_bearing(glm::vec<2, T> v) {
+    const auto [axis, ratio] = bearing_detail::fold(v);
+    return bearing_detail::wrap_bearing(axis + bearing_detail::quintic(ratio));
+}
+
+template <bearing_scalar T>
+[[nodiscard]] inline glm::vec<2, T> quintic_direction(T bearing) {
+    const auto [quarter, offset] = bearing_detail::split(bearing);
+    T ratio = bearing_detail::quadratic_ratio(offset);  // within 0.22 degrees, and each step about squares the error
+    for (int step = 0; step < 3; ++step)
+        ratio -= (bearing_detail::quintic(ratio) - offset) / bearing_detail::quintic_derivative(ratio);
+    return bearing_detail::unfold(quarter, ratio);
+}
+
+// Directions of evenly spaced slices: out[i] = direction(phase + i / out.size()), direction being one of the inverses
+// above (as a lambda) or any function of a bearing in double that has the symmetry of the square.
+// Where phase is a multiple of half a slice, directions that mirror each other are exact mirror images.
+template <class Direction>
+void fill_directions(std::span<glm::dvec2> out, double phase, const Direction& direction) {
+    const double first = phase - std::floor(phase);
+    const auto slices = static_cast<std::int64_t>(out.size());
+    // In units of half a slice bearings are whole numbers, and are brought into the first octant without rounding.
+    const std::int64_t turn = 2 * slices;
+    const double half_slices = first * double(turn);
+    const double whole = std::floor(half_slices + 0.5);
+    const bool symmetric = std::abs(half_slices - whole) < 1e-9;
+    for (std::int64_t i = 0; i < slices; ++i) {
+        glm::dvec2& d = out[std::size_t(i)];
+        if (!symmetric) {
+            d = direction(bearing_detail::wrap_bearing(first + double(i) / double(slices)));
+            continue;
+        }
+        const std::int64_t position = (2 * i + static_cast<std::int64_t>(whole)) % turn;
+        const std::int64_t quarter = (8 * position + turn) / (2 * turn);
+        const std::int64_t offset = 4 * position - quarter * turn;
+        const glm::dvec2 v = direction(double(offset < 0 ? -offset : offset) / double(4 * turn));
+        d = bearing_detail::quarter_turns(static_cast<int>(quarter), offset < 0 ? glm::dvec2(v.x, 0.0 - v.y) : v);
+    }
+}
+
+// The same in true angles.
+inline void fill_directions(std::span<glm::dvec2> out, double phase = 0.0) {
+    fill_directions(out, phase, [](double bearing) { return exact_direction(bearing); });
+}
+
+}  // namespace bumpshadow

@@ -1,0 +1,30 @@
+#pragma once
+
+// What a build of bumpshadow can choose. Define a macro before the first include, the same in every translation unit.
+
+// Checks for programmer errors (a texel outside the map handed to a single-texel function). Expected failures are a
+// `status` instead, see status.hpp.
+#ifndef BUMPSHADOW_ASSERT
+#include <cassert>
+#define BUMPSHADOW_ASSERT(condition) assert(condition)
+#endif
+
+// How hot loops are vectorized. Never guessed from the headers that happen to be installed.
+//   0  plain loops
+//   1  the vector extensions of GCC and Clang (default there); the width follows the target, e.g. -march=native
+//   2  xsimd, which the build then has to provide
+#define BUMPSHADOW_SIMD_NONE 0
+#define BUMPSHADOW_SIMD_VECTOR_EXTENSIONS 1
+#define BUMPSHADOW_SIMD_XSIMD 2
+
+#ifndef BUMPSHADOW_SIMD
+#if defined(__GNUC__) || defined(__clang__)
+#define BUMPSHADOW_SIMD BUMPSHADOW_SIMD_VECTOR_EXTENSIONS
+#else
+#define BUMPSHADOW_SIMD BUMPSHADOW_SIMD_NONE
+#endif
+#endif
+
+#if BUMPSHADOW_SIMD < 0 || BUMPSHADOW_SIMD > 2
+#error "BUMPSHADOW_SIMD is 0 (plain loops), 1 (vector extensions) or 2 (xsimd)"
+#endif

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <type_traits>
+
+#include <glm/ext/vector_double2.hpp>
+#include <glm/ext/vector_int2.hpp>
+
+#include <bumpshadow/config.hpp>
+#include <bumpshadow/status.hpp>
+
+namespace bumpshadow {
+
+// Sample types of a height map. 8 and 16 bits are normalized: their largest value stands for 1.
+template <class T>
+concept height_sample = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> || std::same_as<T, float> ||
+    std::same_as<T, double>;
+
+// What lies beyond the border of a height map.
+enum class edge_mode : unsigned char {
+    repeat,  // the map tiles
+    clamp,   // the border height goes on for ever
+    mirror,  // the map is reflected at its border; the border texel is repeated once
+    open,    // nothing: no surface, no occluder
+};
+
+// Texels [origin, origin + extent). An empty one, the default, stands for the whole map where a function takes one.
+struct rectangle {
+    glm::ivec2 origin{0};
+    glm::ivec2 extent{0};
+
+    [[nodiscard]] constexpr bool empty() const { return extent.x <= 0 || extent.y <= 0; }
+};
+
+// A view of heights; owns nothing.
+//
+// Texel (x, y) is samples[y * row_stride + x]: x along +u, y along +v, row-major. Tangent space is +x along +u,
+// +y along +v (the direction of growing row number) and +z out of the surface. An image whose first row is the top
+// of the picture, used with a y-up normal map, needs one flip: mirror the rows of the heights or negate the normal's y.
+//
+// Height of a texel = sample * height_scale - datum, in the unit of texel_size. The surface between texel centers is
+// bilinear. Any constant may be the datum, since only differences of heights matter; the methods work in float, so
+// double samples that lie far from zero should name a datum near their heights.
+template <height_sample Sample>
+struct height_map {
+    const Sample* samples = nullptr;
+    glm::ivec2 extent{0};             // texels
+    std::ptrdiff_t row_stride = 0;    // samples from one row to the next
+    double height_scale = 1.0;        // units a sample; for 8 and 16 bits the height of the largest sample value
+    double datum = 0.0;               // units, subtracted from every height
+    glm::dvec2 texel_size{1.0, 1.0};  // units between texel centers
+    edge_mode edge = edge_mode::repeat;
+    std::optional<Sample> no_data = {};  // this value (or NaN) marks a hole: it does not occlude and is never shadowed
+};
+
+// A tightly packed map of the given extent, everything else at its default.
+template <height_sample Sample>
+[[nodiscard]] constexpr height_map<Sample> tight_height_map(const Sample* samples, glm::ivec2 extent) {
+    return {.samples = samples, .extent = extent, .row_stride = extent.x};
+}
+
+// Factor from a sample to a height.
+template <height_sample Sample>
+[[nodiscard]] constexpr double unit_height(const height_map<Sample>& heights) {
+    if constexpr (std::is_integral_v<Sample>)
+        return heights.height_scale / static_cast<double>(std::numeric_limits<Sample>::max());
+    else
+        return heights.height_scale;
+}
+
+// Index of the texel that stands in for index i on an axis of n texels, or -1 where there is none (open).
+[[nodiscard]] constexpr std::int64_t resolve_edge(std::int64_t i, std::int64_t n, edge_mode edge) {
+    if (i >= 0 && i < n) return i;
+    switch (edge) {
+        case edge_mode::clamp: return i < 0 ? 0 : n - 1;
+        case edge_mode::repeat: {
+            const std::int64_t r = i % n;
+            return r < 0 ? r + n : r;
+        }
+        case edge_mode::mirror: {
+            std::int64_t r = i % (2 * n);
+            if (r < 0) r += 2 * n;
+            return r < n ? r : 2 * n - 1 - r;
+        }
+        case edge_mode::open: break;
+    }
+    return -1;
+}
+
+template <height_sample Sample>
+[[nodiscard]] constexpr bool is_no_data(const height_map<Sample>& heights, Sample sample) {
+    if (!heights.no_data) return false;
+    if constexpr (std::is_floating_point_v<Sample>)
+        if (*heights.no_data != *heights.no_data) return sample != sample;
+    return sample == *heights.no_data;
+}
+
+// Sample of the texel at (x, y), which has to lie inside the map.
+template <height_sample Sample>
+[[nodiscard]] constexpr Sample sample_at(const height_map<Sample>& heights, std::int64_t x, std::int64_t y) {
+    BUMPSHADOW_ASSERT(x >= 0 && x < heights.extent.x && y >= 0 && y < heights.extent.y);
+    return heights.samples[y * heights.row_stride + x];
+}
+
+// Checks everything about a view that costs no pass over the samples.
+template <height_sample Sample>
+[[nodiscard]] status check(const height_map<Sample>& heights) {
+    if (heights.samples == nullptr) return {error::missing, "heights.samples"};
+    if (heights.extent.x <= 0) return {error::not_positive, "heights.extent.x", double(heights.extent.x)};
+    if (heights.extent.y <= 0) return {error::not_positive, "heights.extent.y", double(heights.extent.y)};
+    if (heights.row_stride < heights.extent.x)
+        return {error::too_small, "heights.row_stride", double(heights.row_stride), double(heights.extent.x)};
+    if (!std::isfinite(heights.height_scale)) return {error::not_finite, "height_scale", heights.height_scale};
+    if (!std::isfinite(heights.datum)) return {error::not_finite, "datum", heights.datum};
+    if (!std::isfinite(heights.texel_size.x)) return {error::not_finite, "texel_size.x", heights.texel_size.x};
+    if (!std::isfinite(heights.texel_size.y)) return {error::not_finite, "texel_size.y", heights.texel_size.y};
+    if (!(heights.texel_size.x > 0.0)) return {error::not_positive, "texel_size.x", heights.texel_size.x};
+    if (!(heights.texel_size.y > 0.0)) return {error::not_positive, "texel_size.y", heights.texel_size.y};
+    return {};
+}
+
+// Looks for the first sample, in row order, that is NaN or infinite and is not no_data.
+template <height_sample Sample>
+[[nodiscard]] status check_samples(const height_map<Sample>& heights) {
+    if constexpr (std::is_floating_point_v<Sample>) {
+        for (int y = 0; y < heights.extent.y; ++y) {
+            const Sample* row = heights.samples + y * heights.row_stride;
+            // x - x is 0 for finite x and NaN otherwise, so one sum a row finds whether there is anything to look for.
+            Sample sum = 0;
+            for (int x = 0; x < heights.extent.x; ++x) sum += row[x] - row[x];
+            if (sum == Sample(0)) continue;
+            for (int x = 0; x < heights.extent.x; ++x)
+                if (!std::isfinite(row[x]) && !is_no_data(heights, row[x]))
+                    return {error::not_finite, "height", double(row[x]), 0.0, {x, y}};
+        }
+    }
+    return {};
+}
+
+}  // namespace bumpshadow

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory_resource>
+#include <span>
+
+#include <glm/ext/vector_double2.hpp>
+#include <glm/ext/vector_int2.hpp>
+
+#include <bumpshadow/height_map.hpp>
+#include <bumpshadow/status.hpp>
+
+namespace bumpshadow {
+
+// Slope of a horizon where nothing occludes: a hole of the map, or a direction that leads straight out of an open one.
+// Finite, so that filtering such a texel cannot make a NaN; every light is above it.
+inline constexpr float no_horizon = std::numeric_limits<float>::lowest();
+
+// A view of floats laid out [bearing][y][x], which is how a volume texture is uploaded; owns nothing.
+// As a horizon map it holds slopes: tangents of the horizon's elevation, signed, one slice a direction. The same view
+// holds the distances of the occluders. Strides are in floats; 0 means tightly packed.
+struct horizon_map {
+    std::span<float> values = {};
+    glm::ivec2 extent{0};  // texels
+    int bearings = 0;      // slices
+    std::size_t row_stride = 0;
+    std::size_t slice_stride = 0;
+
+    [[nodiscard]] constexpr std::size_t row_step() const {
+        return row_stride != 0 ? row_stride : std::size_t(extent.x);
+    }
+    [[nodiscard]] constexpr std::size_t slice_step() const {
+        return slice_stride != 0 ? slice_stride : row_step() * std::size_t(extent.y);
+    }
+    [[nodiscard]] constexpr float* row(int bearing, int y) const {
+        return values.data() + std::size_t(bearing) * slice_step() + std::size_t(y) * row_step();
+    }
+    // Floats that `values` has to have.
+    [[nodiscard]] constexpr std::size_t required_size() const {
+        return std::size_t(bearings - 1) * slice_step() + std::size_t(extent.y - 1) * row_step() +
+               std::size_t(extent.x);
+    }
+};
+
+// Floats of a tightly packed horizon map.
+[[nodiscard]] constexpr std::size_t required_size(glm::ivec2 extent, int bearings) {
+    return std::size_t(extent.x) * std::size_t(extent.y) * std::size_t(bearings);
+}
+
+// What every method that bakes horizons takes besides heights, directions and output.
+struct bake_options {
+    // Cascade: how many texels of a level its steps reach; error falls and cost grows with it. Other methods ignore it.
+    int steps = 8;
+    // Occluders farther than this are left out, in the unit of texel_size.
+    double radius = std::numeric_limits<double>::infinity();
+    // Principal curvatures of the base surface along x and y, in 1/unit. Along a bearing the base falls away by
+    // (x cos^2 + y sin^2) t^2 / 2. Negative ones (a hollow base, which rises for ever) need a finite radius.
+    glm::dvec2 curvature{0.0, 0.0};
+    // Texels to bake; the output has this extent. Empty: the whole map.
+    rectangle region = {};
+    // Where distances to the occluders go, in the unit of texel_size; 0 where the surface at the texel itself is the
+    // horizon, infinity where the horizon is infinitely far or absent. Extent and bearings as the slopes. Optional.
+    horizon_map distances = {};
+    // Where scratch memory comes from: this span if it is not empty (see the method's scratch size), else the resource.
+    std::span<std::byte> scratch = {};
+    std::pmr::memory_resource* memory = nullptr;  // null: std::pmr::get_default_resource()
+};
+
+// Curvature of the base surface along a unit direction.
+[[nodiscard]] constexpr double curvature_along(glm::dvec2 curvature, glm::dvec2 unit_direction) {
+    return curvature.x * unit_direction.x * unit_direction.x + curvature.y * unit_direction.y * unit_direction.y;
+}
+
+// True where the horizon of a map in itself is never negative: the surface goes on for ever and its base is flat, so
+// that the slope to far points tends to 0.
+[[nodiscard]] constexpr bool horizon_is_never_negative(edge_mode edge, double radius, double curvature) {
+    return edge != edge_mode::open && radius == std::numeric_limits<double>::infinity() && curvature == 0.0;
+}
+
+// The region of an option, with "empty" replaced by the whole map.
+[[nodiscard]] constexpr rectangle region_or_all(rectangle region, glm::ivec2 extent) {
+    return region.empty() ? rectangle{glm::ivec2(0), extent} : region;
+}
+
+// Checks a view that slopes or distances are written to.
+[[nodiscard]] inline status check_output(const horizon_map& out, glm::ivec2 extent, std::size_t bearings) {
+    if (out.extent.x != extent.x) return {error::mismatch, "output extent.x", double(out.extent.x), double(extent.x)};
+    if (out.extent.y != extent.y) return {error::mismatch, "output extent.y", double(out.extent.y), double(extent.y)};
+    if (out.bearings <= 0 || std::size_t(out.bearings) != bearings)
+        return {error::mismatch, "output bearings", double(out.bearings), double(bearings)};
+    if (out.row_step() < std::size_t(extent.x))
+        return {error::too_small, "output row_stride", double(out.row_step()), double(extent.x)};
+    if (out.bearings > 1 && out.slice_step() < out.row_step() * std::size_t(extent.y - 1) + std::size_t(extent.x))
+        return {error::too_small, "output slice_stride", double(out.slice_step()), double(out.row_step()) * extent.y};
+    if (out.values.size() < out.required_size())
+        return {error::too_small, "output size", double(out.values.size()), double(out.required_size())};
+    return {};
+}
+
+// Checks what all methods have in common; costs nothing that grows with the map.
+template <height_sample Sample>
+[[nodiscard]] status check_bake(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
+                                const horizon_map& out, const bake_options& options) {
+    if (status s = check(heights); !s) return s;
+    if (directions.empty()) return {error::not_positive, "bearings", 0.0};
+    if (options.steps <= 0) return {error::not_positive, "steps", double(options.steps)};
+    if (!(options.radius > 0.0)) return {error::not_positive, "radius", options.radius};
+    if (!std::isfinite(options.curvature.x)) return {error::not_finite, "curvature.x", options.curvature.x};
+    if (!std::isfinite(options.curvature.y)) return {error::not_finite, "curvature.y", options.curvature.y};
+    for (const glm::dvec2 d : directions) {
+        if (!std::isfinite(d.x) || !std::isfinite(d.y))
+            return {error::not_finite, "direction", std::isfinite(d.x) ? d.y : d.x};
+        if (d.x == 0.0 && d.y == 0.0) return {error::not_positive, "length of a direction", 0.0};
+        const glm::dvec2 scaled =
+            d / (std::max)(std::abs(d.x), std::abs(d.y));  // or its square could over- or underflow
+        if (std::isinf(options.radius) && curvature_along(options.curvature, scaled) < 0.0)
+            return {error::out_of_range, "curvature (negative needs a finite radius)",
+                    options.curvature.x < 0.0 ? options.curvature.x : options.curvature.y, 0.0};
+    }
+    const glm::ivec2 origin = options.region.origin, size = options.region.extent;
+    if (!options.region.empty()) {
+        if (origin.x < 0 || origin.x > heights.extent.x - size.x)
+            return {error::out_of_range, "region.origin.x", double(origin.x), double(heights.extent.x - size.x)};
+        if (origin.y < 0 || origin.y > heights.extent.y - size.y)
+            return {error::out_of_range, "region.origin.y", double(origin.y), double(heights.extent.y - size.y)};
+    }
+    const glm::ivec2 extent = region_or_all(options.region, heights.extent).extent;
+    if (status s = check_output(out, extent, directions.size()); !s) return s;
+    if (!options.distances.values.empty())
+        if (status s = check_output(options.distances, extent, directions.size()); !s) return s;
+    return {};
+}
+
+}  // namespace bumpshadow
