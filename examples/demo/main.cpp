@@ -30,9 +30,9 @@
 #include "common/image.hpp"
 #include "common/picture.hpp"
 #include "common/progress.hpp"
+#include "common/shade.hpp"
+#include "common/stone_wall.hpp"
 #include "demo/page.hpp"
-#include "demo/shade.hpp"
-#include "demo/stone_wall.hpp"
 
 namespace {
 

@@ -1,12 +1,22 @@
 #pragma once
 
+#include <cstdint>
+#include <utility>
+
 #include <bumpshadow/config.hpp>
 
 #if BUMPSHADOW_SIMD == BUMPSHADOW_SIMD_XSIMD
 #include <xsimd/xsimd.hpp>
 #endif
+#if BUMPSHADOW_SIMD == BUMPSHADOW_SIMD_VECTOR_EXTENSIONS && defined(__SSE__)
+#include <immintrin.h>
+#endif
 
 // The few operations that the hot loops need, on `width` floats at a time. Memory need not be aligned.
+// Of two packs a, b, taken as one row of 2 width values:
+//   next       values 1 ... width
+//   even, odd  every other one, from the first or from the second
+//   zip_low, zip_high  a[0] b[0] a[1] b[1] ..., its first and its second half
 // The width follows the target of the translation unit: compile all of them for the same one.
 namespace bumpshadow::simd {
 
@@ -24,6 +34,16 @@ inline pack multiply_add(pack a, pack b, pack c) { return xsimd::fma(a, b, c); }
 inline pack max(pack a, pack b) { return xsimd::max(a, b); }
 inline pack select_greater(pack a, pack b, pack yes, pack no) { return xsimd::select(a > b, yes, no); }
 
+// Through memory: what the library calls by these names differs between its versions and targets.
+template <class Lane>
+inline pack choose(pack a, pack b, Lane lane) {
+    alignas(64) float from[2 * width], to[width];
+    store(from, a);
+    store(from + width, b);
+    for (int i = 0; i < width; ++i) to[i] = from[lane(i)];
+    return load(to);
+}
+
 #elif BUMPSHADOW_SIMD == BUMPSHADOW_SIMD_VECTOR_EXTENSIONS
 
 #if defined(__AVX512F__)
@@ -39,12 +59,31 @@ typedef float unaligned_pack __attribute__((vector_size(4 * width), aligned(4), 
 
 inline pack load(const float* from) { return *reinterpret_cast<const unaligned_pack*>(from); }
 inline void store(float* to, pack a) { *reinterpret_cast<unaligned_pack*>(to) = a; }
-inline pack splat(float a) { return pack{} + a; }
+template <int... Lane>
+inline pack splat(float a, std::integer_sequence<int, Lane...>) {
+    return pack{(static_cast<void>(Lane), a)...};
+}
+inline pack splat(float a) { return splat(a, std::make_integer_sequence<int, width>()); }
 inline pack subtract(pack a, pack b) { return a - b; }
 inline pack multiply(pack a, pack b) { return a * b; }
 inline pack multiply_add(pack a, pack b, pack c) { return a * b + c; }
 inline pack max(pack a, pack b) { return a > b ? a : b; }
 inline pack select_greater(pack a, pack b, pack yes, pack no) { return a > b ? yes : no; }
+
+template <int First, int Step, int... Lane>
+inline pack pick(pack a, pack b, std::integer_sequence<int, Lane...>) {
+    return __builtin_shufflevector(a, b, (First + Lane * Step)...);
+}
+template <int First, int... Lane>
+inline pack alternate(pack a, pack b, std::integer_sequence<int, Lane...>) {
+    return __builtin_shufflevector(a, b, (First + Lane / 2 + (Lane % 2) * width)...);
+}
+using lanes = std::make_integer_sequence<int, width>;
+inline pack next(pack here, pack after) { return pick<1, 1>(here, after, lanes()); }
+inline pack even(pack a, pack b) { return pick<0, 2>(a, b, lanes()); }
+inline pack odd(pack a, pack b) { return pick<1, 2>(a, b, lanes()); }
+inline pack zip_low(pack a, pack b) { return alternate<0>(a, b, lanes()); }
+inline pack zip_high(pack a, pack b) { return alternate<width / 2>(a, b, lanes()); }
 
 #else
 
@@ -83,7 +122,64 @@ inline pack max(const pack& a, const pack& b) {
 inline pack select_greater(const pack& a, const pack& b, const pack& yes, const pack& no) {
     return for_lanes([&](int i) { return a.lane[i] > b.lane[i] ? yes.lane[i] : no.lane[i]; });
 }
+template <class Lane>
+inline pack choose(const pack& a, const pack& b, Lane lane) {
+    return for_lanes([&](int i) { return lane(i) < width ? a.lane[lane(i)] : b.lane[lane(i) - width]; });
+}
 
 #endif
+
+#if BUMPSHADOW_SIMD != BUMPSHADOW_SIMD_VECTOR_EXTENSIONS
+inline pack next(const pack& here, const pack& after) {
+    return choose(here, after, [](int i) { return i + 1; });
+}
+inline pack even(const pack& a, const pack& b) {
+    return choose(a, b, [](int i) { return 2 * i; });
+}
+inline pack odd(const pack& a, const pack& b) {
+    return choose(a, b, [](int i) { return 2 * i + 1; });
+}
+inline pack zip_low(const pack& a, const pack& b) {
+    return choose(a, b, [](int i) { return i / 2 + (i % 2) * width; });
+}
+inline pack zip_high(const pack& a, const pack& b) {
+    return choose(a, b, [](int i) { return (i + width) / 2 + (i % 2) * width; });
+}
+#endif
+
+// Stores to memory that is not read again soon, past the caches where the machine can: half the traffic, since the old
+// content is not fetched. Other threads see it after stream_end().
+inline void stream(float* to, const pack& a) {
+#if BUMPSHADOW_SIMD == BUMPSHADOW_SIMD_VECTOR_EXTENSIONS && defined(__SSE__)
+    if (reinterpret_cast<std::uintptr_t>(to) % sizeof(pack) == 0) {
+#if defined(__AVX512F__)
+        _mm512_stream_ps(to, a);
+#elif defined(__AVX__)
+        _mm256_stream_ps(to, a);
+#else
+        _mm_stream_ps(to, a);
+#endif
+        return;
+    }
+#endif
+    store(to, a);
+}
+inline void stream_end() {
+#if BUMPSHADOW_SIMD == BUMPSHADOW_SIMD_VECTOR_EXTENSIONS && defined(__SSE__)
+    _mm_sfence();
+#endif
+}
+
+// Transposes a square of width x width values: zipping the two halves log2(width) times does it.
+inline void transpose(pack (&rows)[width]) {
+    for (int round = 1; round < width; round *= 2) {
+        pack zipped[width];
+        for (int i = 0; i < width / 2; ++i) {
+            zipped[2 * i] = zip_low(rows[i], rows[i + width / 2]);
+            zipped[2 * i + 1] = zip_high(rows[i], rows[i + width / 2]);
+        }
+        for (int i = 0; i < width; ++i) rows[i] = zipped[i];
+    }
+}
 
 }  // namespace bumpshadow::simd

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include <glm/ext/vector_double2.hpp>
 #include <glm/ext/vector_int2.hpp>
@@ -17,165 +18,146 @@
 
 // The pyramid of heights that horizon/cascade.hpp looks at. Part of that header; nothing here is public.
 //
-// Level 0 is the map itself. At level j >= 1 horizons are found for cells of 2^j texels, looking at heights on a grid
-// twice as fine: the grid of level j - 1. Its columns are stored apart, even ones first, so that what neighboring cells
-// look at is contiguous again. All grids carry a halo in which the edge mode has been carried out, so that no loop asks
-// where the border is.
+// Level 0 is the map itself, with a halo in which the edge mode has been carried out, so that its loops need not ask where
+// the border is. At level j >= 1 horizons are found for cells of 2^j texels, looking at heights of the level below.
 namespace bumpshadow::cascade_detail {
 
 inline constexpr int most_levels = 32;
-inline constexpr int smallest_axis = 32;       // cells; an axis is halved as long as it has at least as many
-inline constexpr int border = 8;               // cells a grid has beyond its halo, for cells next to the map
-inline constexpr int chunk = 4 * simd::width;  // cells of a row that are worked on together
-inline constexpr float hole = -1e37f;          // height of a hole; far enough below to never occlude
-inline constexpr float hole_limit = -1e20f;    // what is below has a hole in it
-inline constexpr float occluder_bias = 0.35f;  // a coarse occluder is its mean plus this part of the way to its maximum
-inline constexpr double growth = 4.0;          // a level reaches so much farther than the one before
+inline constexpr int border = 8;              // texels that level 0 has beyond its halo
+inline constexpr int overhang = 2 * simd::width + 2;
+inline constexpr float hole = -1e37f;         // height of a hole; far enough below to never occlude
+inline constexpr float hole_limit = -1e20f;   // what is below has a hole in it
+inline constexpr float occluder_bias = 0.4f;  // a coarse occluder is its mean and this part of the way to its maximum
+inline constexpr double growth = 4.0;         // a level reaches so much farther than the one before
 
-// Cells along one axis: of the map, and of the base grid of the pyramid, which can be halved `halvings` times.
-struct axis_shape {
-    int texels = 0;
-    int cells = 0;
-    int halvings = 0;
-};
-
-[[nodiscard]] constexpr axis_shape shape_axis(int texels) {
-    axis_shape a{texels, texels, 0};
-    while ((texels >> a.halvings) >= smallest_axis) ++a.halvings;
-    const int block = 1 << a.halvings;
-    a.cells = (texels + block - 1) / block * block;
-    return a;
-}
-
-// Heights with a halo. Row-major; where columns are split, a row is its even columns and then its odd ones.
-struct grid {
+// Heights without a border; but each row goes on for `overhang` cells as the edge says, so that packs may begin anywhere.
+struct plane {
     float* values = nullptr;
     glm::ivec2 cells{0};
-    glm::ivec2 halo{0};
-    glm::dvec2 spacing{1.0};  // units of length between cells
     std::ptrdiff_t row_step = 0;
-    std::ptrdiff_t plane = 0;  // from the even columns of a row to the odd ones; 0: not split
+
+    [[nodiscard]] float* row(std::int64_t y) const { return values + y * row_step; }
+};
+
+// Level 0: texel (0, 0) lies at `origin`.
+struct ground {
+    float* values = nullptr;
+    glm::ivec2 texels{0};
+    glm::ivec2 halo{0};
+    std::ptrdiff_t row_step = 0;
 
     [[nodiscard]] std::ptrdiff_t offset(std::int64_t x, std::int64_t y) const {
-        const std::ptrdiff_t row = std::ptrdiff_t(y + halo.y) * row_step, column = std::ptrdiff_t(x + halo.x);
-        return plane == 0 ? row + column : row + (column & 1) * plane + (column >> 1);
+        return (y + halo.y) * row_step + x + halo.x;
     }
-    [[nodiscard]] std::size_t size() const { return std::size_t(row_step) * std::size_t(cells.y + 2 * halo.y); }
+    [[nodiscard]] std::size_t size() const { return std::size_t(row_step) * std::size_t(texels.y + 2 * halo.y); }
 };
-
-[[nodiscard]] inline grid shape_grid(glm::ivec2 cells, glm::ivec2 halo, glm::dvec2 spacing, bool split) {
-    grid g{.cells = cells, .halo = halo, .spacing = spacing};
-    g.halo.x += g.halo.x & 1;
-    const std::ptrdiff_t columns = cells.x + 2 * g.halo.x;
-    if (split) {
-        g.plane = columns / 2 + chunk;  // split grids have an even number of cells
-        g.row_step = 2 * g.plane;
-    } else {
-        g.row_step = columns + chunk;
-    }
-    return g;
-}
 
 struct level {
-    grid origins;         // heights of the cells that horizons are found for; level 0: the same grid as occluders
-    grid occluders;       // heights they look at
-    glm::ivec2 ratio{1};  // occluder cells in an origin cell, 1 or 2
+    plane occluders;      // what its cells look at: the level below, raised towards its maxima
+    plane origins;        // the cells' own heights: means
+    glm::ivec2 ratio{1};  // occluder cells in a cell along x and y, 1 or 2
 };
 
-// How the levels of a map lie in memory; the same for all directions.
-struct levels_shape {
+// How the levels of a map lie in memory; the same for all directions. Lengths are in units of `unit`.
+struct pyramid {
     edge_mode edge = edge_mode::repeat;
-    axis_shape x, y;
-    double unit = 1.0;       // length that counts as 1 inside: the smaller texel size
-    bool resampled = false;  // the base grid has other cells than the map, because those could not be halved seamlessly
-    int count = 1;
-    std::array<level, most_levels> levels{};
+    double unit = 1.0;         // length that counts as 1 inside: the smaller texel size
+    glm::dvec2 spacing{1.0};   // between texels
+    glm::dvec2 base{1.0};      // cells of the finest grid that can be halved, over texels; 1 but for odd maps that tile
+    bool copied = false;       // that grid is not level 0 itself
+    int count = 1;             // levels
+    ground texels;
+    std::array<level, most_levels> levels{};  // from 1 on
 
-    [[nodiscard]] glm::ivec2 base_cells() const { return {x.cells, y.cells}; }
+    [[nodiscard]] bool resampled() const { return base.x != 1.0 || base.y != 1.0; }
 };
 
-// Cells after which a row of cells and its continuation begin again; for clamp and open: after which nothing changes.
+// After so many cells a row repeats itself or, for clamp and open, changes no more.
 [[nodiscard]] constexpr std::int64_t period(int cells, edge_mode edge) {
-    return edge == edge_mode::mirror   ? 2 * std::int64_t(cells)
-           : edge == edge_mode::repeat ? cells
+    return edge == edge_mode::mirror ? 2 * std::int64_t(cells)
+           : edge == edge_mode::repeat ? std::int64_t(cells)
                                        : std::int64_t(cells) + border;
 }
 
-[[nodiscard]] inline levels_shape shape_levels(glm::ivec2 extent, glm::dvec2 texel_size, edge_mode edge, int steps) {
-    levels_shape s;
-    s.edge = edge;
-    s.x = shape_axis(extent.x);
-    s.y = shape_axis(extent.y);
-    s.count = 1 + (std::max)(s.x.halvings, s.y.halvings);
-    s.unit = (std::min)(texel_size.x, texel_size.y);
-    const bool tiles = edge == edge_mode::repeat || edge == edge_mode::mirror;
-    const glm::dvec2 size = texel_size / s.unit;
-    glm::dvec2 base = size;
-    if (tiles) {
-        base.x *= double(extent.x) / double(s.x.cells);
-        base.y *= double(extent.y) / double(s.y.cells);
-        s.resampled = s.x.cells != extent.x || s.y.cells != extent.y;
-    }
-    const auto halo = [&](int cells, double reach, bool last) {
-        const double most = double(period(cells, edge));
-        return int(last ? most : (std::min)(std::ceil(reach) + 1.0, most)) + border;
+[[nodiscard]] inline pyramid shape_pyramid(glm::ivec2 extent, glm::dvec2 texel_size, edge_mode edge, int steps) {
+    pyramid p;
+    p.edge = edge;
+    p.unit = (std::min)(texel_size.x, texel_size.y);
+    p.spacing = texel_size / p.unit;
+    int halvings = 0;
+    while (((std::max)(extent.x, extent.y) >> halvings) >= 32) ++halvings;
+    p.count = 1 + halvings;
+
+    const auto base_cells = [&](int texels) {
+        const unsigned block = (std::min)(1u << halvings, std::bit_ceil(unsigned(texels)));
+        return int((unsigned(texels) + block - 1) / block * block);
     };
-    for (int j = 0; j < s.count; ++j) {
-        level& l = s.levels[std::size_t(j)];
-        const bool last = j == s.count - 1;
-        if (j == 0) {
-            const double reach = steps;
-            l.occluders = shape_grid(extent, {halo(extent.x, reach, last), halo(extent.y, reach, last)}, size, false);
-            l.origins = l.occluders;
-            continue;
+    const glm::ivec2 cells(base_cells(extent.x), base_cells(extent.y));
+    p.copied = cells.x != extent.x || cells.y != extent.y;
+    if (edge == edge_mode::repeat || edge == edge_mode::mirror) p.base = glm::dvec2(cells) / glm::dvec2(extent);
+
+    const auto halo = [&](int texels) {
+        const std::int64_t most = period(texels, edge);
+        return int(p.count == 1 ? most : (std::min)(std::int64_t(steps) + 1, most)) + border;
+    };
+    p.texels.texels = extent;
+    // Rows begin at a multiple of the pack width, as far as the map's first column goes.
+    const auto whole_packs = [](int n) { return (n + simd::width - 1) / simd::width * simd::width; };
+    p.texels.halo = {whole_packs((std::max)(halo(extent.x), overhang)), halo(extent.y)};
+    p.texels.row_step = whole_packs(extent.x) + 2 * p.texels.halo.x + 4 * simd::width;
+
+    glm::ivec2 fine = cells;
+    for (int j = 1; j < p.count; ++j) {
+        level& l = p.levels[std::size_t(j)];
+        l.ratio = {fine.x > 1 ? 2 : 1, fine.y > 1 ? 2 : 1};
+        l.occluders = {nullptr, fine, fine.x + overhang};
+        fine /= l.ratio;
+        l.origins = {nullptr, fine, fine.x + overhang};
+    }
+    return p;
+}
+
+[[nodiscard]] inline std::size_t plane_floats(const plane& p) {
+    return std::size_t(p.row_step) * std::size_t(p.cells.y);
+}
+
+inline void fill_overhang(const plane& p, edge_mode edge) {
+    for (int y = 0; y < p.cells.y; ++y)
+        for (int x = p.cells.x; x < p.cells.x + overhang; ++x) {
+            const std::int64_t from = resolve_edge(x, p.cells.x, edge);
+            p.row(y)[x] = from < 0 ? hole : p.row(y)[from];
         }
-        const auto at = [](const axis_shape& a, int i) { return a.cells >> (std::min)(i, a.halvings); };
-        const auto scale = [](const axis_shape& a, int i) { return double(1 << (std::min)(i, a.halvings)); };
-        const glm::ivec2 fine(at(s.x, j - 1), at(s.y, j - 1)), coarse(at(s.x, j), at(s.y, j));
-        const double reach = steps * std::pow(growth, j);
-        l.ratio = fine / coarse;
-        l.occluders = shape_grid(fine,
-                                 {halo(fine.x, reach / scale(s.x, j - 1) * s.x.cells / s.x.texels, last),
-                                  halo(fine.y, reach / scale(s.y, j - 1) * s.y.cells / s.y.texels, last)},
-                                 base * glm::dvec2(scale(s.x, j - 1), scale(s.y, j - 1)), l.ratio.x == 2);
-        l.origins = shape_grid(coarse, {border, border}, base * glm::dvec2(scale(s.x, j), scale(s.y, j)), false);
-    }
-    return s;
 }
 
-// Scratch: every grid, and the maxima of two levels while the pyramid is built.
-inline void add_levels(const levels_shape& s, scratch_layout& layout) {
-    for (int j = 0; j < s.count; ++j) {
-        const level& l = s.levels[std::size_t(j)];
-        layout.add<float>(l.occluders.size());
-        if (j > 0) layout.add<float>(l.origins.size());
+// Scratch of a pyramid: its planes, and the maxima of two levels while it is built.
+inline void add_pyramid(const pyramid& p, scratch_layout& layout) {
+    layout.add<float>(p.texels.size());
+    for (int j = 1; j < p.count; ++j) {
+        const level& l = p.levels[std::size_t(j)];
+        if (j > 1 || p.copied) layout.add<float>(plane_floats(l.occluders));
+        layout.add<float>(plane_floats(l.origins));
+        if (j <= 2) layout.add<float>(plane_floats(l.origins));
     }
-    const std::size_t base = std::size_t(s.x.cells) * std::size_t(s.y.cells);
-    layout.add<float>(base).add<float>(base).add<float>(2 * std::size_t(s.x.cells) + 4 * std::size_t(chunk));
+    layout.add<float>(std::size_t(p.texels.texels.x) + 2);
 }
 
-// Fills what lies around the cells of a grid. Holes where there is nothing.
-inline void fill_halo(const grid& g, edge_mode edge) {
-    const auto row = [&](std::int64_t y) { return g.values + (y + g.halo.y) * g.row_step; };
-    const auto column = [&](std::int64_t x) { return g.offset(x, -g.halo.y); };
-    const int columns = g.cells.x + 2 * g.halo.x;
-    for (int y = 0; y < g.cells.y; ++y) {
-        float* r = row(y);
+inline void fill_halo(const ground& g, edge_mode edge) {
+    const int columns = g.texels.x + 2 * g.halo.x;
+    for (int y = 0; y < g.texels.y; ++y) {
+        float* row = g.values + g.offset(0, y);
         for (int i = 1; i <= g.halo.x; ++i) {
-            const std::int64_t left = resolve_edge(-i, g.cells.x, edge);
-            const std::int64_t right = resolve_edge(g.cells.x - 1 + i, g.cells.x, edge);
-            r[column(-i)] = left < 0 ? hole : r[column(left)];
-            r[column(g.cells.x - 1 + i)] = right < 0 ? hole : r[column(right)];
+            const std::int64_t left = resolve_edge(-i, g.texels.x, edge);
+            const std::int64_t right = resolve_edge(g.texels.x - 1 + i, g.texels.x, edge);
+            row[-i] = left < 0 ? hole : row[left];
+            row[g.texels.x - 1 + i] = right < 0 ? hole : row[right];
         }
-        // The last chunk of a row reads these without using them.
-        if (g.plane == 0)
-            std::fill(r + columns, r + g.row_step, 0.0f);
-        else
-            for (float* odd : {r, r + g.plane}) std::fill(odd + columns / 2, odd + g.plane, 0.0f);
+        // The last pack of a row reads these without using them.
+        std::fill(row - g.halo.x + columns, row - g.halo.x + g.row_step, 0.0f);
     }
+    const auto row = [&](std::int64_t y) { return g.values + (y + g.halo.y) * g.row_step; };
     for (int i = 1; i <= g.halo.y; ++i)
-        for (const int y : {-i, g.cells.y - 1 + i}) {
-            const std::int64_t from = resolve_edge(y, g.cells.y, edge);
+        for (const int y : {-i, g.texels.y - 1 + i}) {
+            const std::int64_t from = resolve_edge(y, g.texels.y, edge);
             if (from < 0)
                 std::fill_n(row(y), g.row_step, hole);
             else
@@ -183,60 +165,60 @@ inline void fill_halo(const grid& g, edge_mode edge) {
         }
 }
 
-// Copies the heights into level 0, in units of `unit`, and tells the lowest and the highest and whether there are
-// holes.
 struct height_range {
     float lowest = std::numeric_limits<float>::max();
     float highest = std::numeric_limits<float>::lowest();
-    bool holes = false;
 };
 
+// Copies the heights into level 0, in units of length.
 template <height_sample Sample>
-[[nodiscard]] height_range fill_base(const height_map<Sample>& heights, double unit, const grid& g) {
+[[nodiscard]] height_range fill_ground(const height_map<Sample>& heights, const pyramid& p) {
     height_range range;
-    // Integers and floats need no more than float has; the datum has to be taken off in double.
-    const double scale = unit_height(heights) / unit, datum = heights.datum / unit;
-    for (int y = 0; y < g.cells.y; ++y) {
+    const double scale = unit_height(heights) / p.unit, datum = heights.datum / p.unit;
+    for (int y = 0; y < p.texels.texels.y; ++y) {
         const Sample* from = heights.samples + y * heights.row_stride;
-        float* to = g.values + g.offset(0, y);
+        float* to = p.texels.values + p.texels.offset(0, y);
         float lowest = range.lowest, highest = range.highest;
-        if (!heights.no_data) {
-            for (int x = 0; x < g.cells.x; ++x) {
-                const float h = float(double(from[x]) * scale - datum);
-                to[x] = h;
-                lowest = h < lowest ? h : lowest;
-                highest = h > highest ? h : highest;
-            }
-        } else {
-            for (int x = 0; x < g.cells.x; ++x) {
+        for (int x = 0; x < p.texels.texels.x; ++x) {
+            const float h = float(double(from[x]) * scale - datum);
+            to[x] = h;
+            lowest = h < lowest ? h : lowest;
+            highest = h > highest ? h : highest;
+        }
+        if (heights.no_data) {
+            lowest = range.lowest, highest = range.highest;
+            for (int x = 0; x < p.texels.texels.x; ++x) {
                 if (is_no_data(heights, from[x])) {
                     to[x] = hole;
-                    range.holes = true;
-                    continue;
+                } else {
+                    lowest = (std::min)(lowest, to[x]);
+                    highest = (std::max)(highest, to[x]);
                 }
-                to[x] = float(double(from[x]) * scale - datum);
-                lowest = (std::min)(lowest, to[x]);
-                highest = (std::max)(highest, to[x]);
             }
         }
         range.lowest = lowest;
         range.highest = highest;
     }
+    fill_halo(p.texels, p.edge);
     return range;
 }
 
-// Where cell i of the base grid lies between texels: between `first` and `first + 1`, `part` of the way.
-struct between {
-    int first;
-    float part;
-};
-[[nodiscard]] inline between place_between(const axis_shape& a, int i) {
-    const double at = (i + 0.5) * a.texels / a.cells - 0.5, floor = std::floor(at);
-    return {int(floor), float(at - floor)};
+// Level 0 of the transposed map.
+inline void transpose_ground(const pyramid& from, const pyramid& to) {
+    constexpr int block = 32;
+    const glm::ivec2 n = to.texels.texels;
+    for (int y0 = 0; y0 < n.y; y0 += block)
+        for (int x0 = 0; x0 < n.x; x0 += block)
+            for (int y = y0; y < (std::min)(y0 + block, n.y); ++y) {
+                float* row = to.texels.values + to.texels.offset(0, y);
+                const float* column = from.texels.values + from.texels.offset(y, 0);
+                for (int x = x0; x < (std::min)(x0 + block, n.x); ++x) row[x] = column[x * from.texels.row_step];
+            }
+    fill_halo(to.texels, to.edge);
 }
 
-// Interpolated height of the base grid, raised towards the higher of the two as coarse occluders are, since a ridge
-// between two samples would be lost. A hole on either side makes a hole.
+// Interpolated height, raised towards the higher of the two as coarse occluders are, since a ridge between two samples
+// would be lost. A hole on either side makes a hole.
 [[nodiscard]] inline float resample(float a, float b, float part) {
     if (part == 0.0f) return a;
     if (a < hole_limit || b < hole_limit) return hole;
@@ -244,117 +226,98 @@ struct between {
     return mean + occluder_bias * ((std::max)(a, b) - mean);
 }
 
-// Row y of the base grid, x.cells wide. `row` has to hold 2 x.cells + chunk floats.
-[[nodiscard]] inline const float* base_row(const levels_shape& s, int y, float* row) {
-    const grid& g = s.levels[0].occluders;
-    if (!s.resampled) {
-        const std::int64_t from = resolve_edge(y, g.cells.y, s.edge);
-        if (from < 0) {
-            std::fill_n(row, s.x.cells, hole);
-            return row;
+// The finest grid that can be halved, where level 0 cannot: maps that end are continued to an even size, and maps that
+// tile are resampled to one, so that they still tile.
+inline void copy_base(const pyramid& p, const plane& to, float* blended) {
+    const ground& g = p.texels;
+    for (int y = 0; y < to.cells.y; ++y) {
+        float* row = to.row(y);
+        if (!p.resampled()) {
+            const std::int64_t from = resolve_edge(y, g.texels.y, p.edge);
+            for (int x = 0; x < to.cells.x; ++x) {
+                const std::int64_t at = resolve_edge(x, g.texels.x, p.edge);
+                row[x] = from < 0 || at < 0 ? hole : g.values[g.offset(at, from)];
+            }
+            continue;
         }
-        const float* texels = g.values + g.offset(0, from);
-        if (s.x.cells <= g.cells.x + g.halo.x) return texels;  // the halo continues the row
-        for (int x = 0; x < s.x.cells; ++x) {
-            const std::int64_t at = resolve_edge(x, g.cells.x, s.edge);
-            row[x] = at < 0 ? hole : texels[at];
+        const double v = (y + 0.5) / p.base.y - 0.5, above = std::floor(v);
+        const float* texels = g.values + g.offset(-1, std::int64_t(above));
+        for (int x = 0; x < g.texels.x + 2; ++x)
+            blended[x] = resample(texels[x], texels[x + g.row_step], float(v - above));
+        for (int x = 0; x < to.cells.x; ++x) {
+            const double u = (x + 0.5) / p.base.x - 0.5, left = std::floor(u);
+            row[x] = resample(blended[int(left) + 1], blended[int(left) + 2], float(u - left));
         }
-        return row;
     }
-    float* const blended = row + s.x.cells;  // a row of texels, and one more on either side
-    const between v = place_between(s.y, y);
-    const float* above = g.values + g.offset(-1, v.first);
-    const float* below = above + g.row_step;
-    for (int x = 0; x < s.x.texels + 2; ++x) blended[x] = resample(above[x], below[x], v.part);
-    for (int x = 0; x < s.x.cells; ++x) {
-        const between u = place_between(s.x, x);
-        row[x] = resample(blended[u.first + 1], blended[u.first + 2], u.part);
-    }
-    return row;
 }
 
-// One cell from up to 2 x 2: mean and maximum of those that are not holes.
+// Cells of a level from those of the one below: mean and maximum of those that are not holes.
 template <bool Holes>
-void halve_row(const float* mean0, const float* mean1, const float* max0, const float* max1, glm::ivec2 ratio,
-               int count, float* mean, float* top) {
-    if constexpr (!Holes) {
-        if (ratio.x == 2) {
-            for (int i = 0; i < count; ++i) {
-                mean[i] = ((mean0[2 * i] + mean0[2 * i + 1]) + (mean1[2 * i] + mean1[2 * i + 1])) * 0.25f;
-                const float a = max0[2 * i] > max0[2 * i + 1] ? max0[2 * i] : max0[2 * i + 1];
-                const float b = max1[2 * i] > max1[2 * i + 1] ? max1[2 * i] : max1[2 * i + 1];
-                top[i] = a > b ? a : b;
+void halve(const plane& mean, const plane& top, glm::ivec2 ratio, const plane& to_mean, const plane& to_top) {
+    for (int y = 0; y < to_mean.cells.y; ++y) {
+        const float* m0 = mean.row(y * ratio.y);
+        const float* m1 = mean.row(y * ratio.y + ratio.y - 1);
+        const float* t0 = top.row(y * ratio.y);
+        const float* t1 = top.row(y * ratio.y + ratio.y - 1);
+        float* to_m = to_mean.row(y);
+        float* to_t = to_top.row(y);
+        const int next = ratio.x - 1;
+        for (int i = 0; i < to_mean.cells.x; ++i) {
+            if constexpr (!Holes) {
+                const int a = ratio.x * i, b = a + next;
+                to_m[i] = ((m0[a] + m0[b]) + (m1[a] + m1[b])) * 0.25f;
+                const float h0 = t0[a] > t0[b] ? t0[a] : t0[b], h1 = t1[a] > t1[b] ? t1[a] : t1[b];
+                to_t[i] = h0 > h1 ? h0 : h1;
+            } else {
+                float sum = 0.0f, highest = hole;
+                int valid = 0;
+                for (const auto& [m, t] : {std::pair(m0, t0), std::pair(m1, t1)})
+                    for (int a = ratio.x * i; a <= ratio.x * i + next; ++a) {
+                        if (m[a] < hole_limit) continue;
+                        sum += m[a];
+                        ++valid;
+                        highest = (std::max)(highest, t[a]);
+                    }
+                to_m[i] = valid > 0 ? sum / float(valid) : hole;
+                to_t[i] = highest;
             }
+        }
+    }
+}
+
+// Builds the levels from 1 on; level 0 has to be filled. Planes are carved from `block` as add_pyramid counted them.
+inline void build_pyramid(pyramid& p, bool holes, scratch_block& block) {
+    std::array<float*, 2> maxima{};
+    for (int j = 1; j < p.count; ++j) {
+        level& l = p.levels[std::size_t(j)];
+        if (j > 1 || p.copied) l.occluders.values = block.carve<float>(plane_floats(l.occluders));
+        l.origins.values = block.carve<float>(plane_floats(l.origins));
+        if (j <= 2) maxima[std::size_t(j & 1)] = block.carve<float>(plane_floats(l.origins));
+    }
+    float* const row = block.carve<float>(std::size_t(p.texels.texels.x) + 2);
+    plane mean, top;
+    for (int j = 1; j < p.count; ++j) {
+        level& l = p.levels[std::size_t(j)];
+        if (j == 1) {
+            if (p.copied)
+                copy_base(p, l.occluders, row);
+            else
+                l.occluders = {p.texels.values + p.texels.offset(0, 0), p.texels.texels, p.texels.row_step};
+            mean = top = l.occluders;
         } else {
-            for (int i = 0; i < count; ++i) {
-                mean[i] = (mean0[i] + mean1[i]) * 0.5f;
-                top[i] = max0[i] > max1[i] ? max0[i] : max1[i];
+            for (int y = 0; y < l.occluders.cells.y; ++y) {
+                float* to = l.occluders.row(y);
+                const float* m = mean.row(y);
+                const float* t = top.row(y);
+                for (int x = 0; x < l.occluders.cells.x; ++x) to[x] = m[x] + occluder_bias * (t[x] - m[x]);
             }
         }
-    } else {
-        for (int i = 0; i < count; ++i) {
-            float sum = 0.0f, highest = hole;
-            int valid = 0;
-            for (int k = 0; k < ratio.x; ++k)
-                for (const auto& [m, t] : {std::pair(mean0, max0), std::pair(mean1, max1)}) {
-                    const int at = ratio.x * i + k;
-                    if (m[at] < hole_limit) continue;
-                    sum += m[at];
-                    ++valid;
-                    highest = (std::max)(highest, t[at]);
-                }
-            mean[i] = valid > 0 ? sum / float(valid) : hole;
-            top[i] = highest;
-        }
-    }
-}
-
-// Builds all levels above 0, whose grid has to be filled, halo included. maxima: two arrays of base cells.
-template <bool Holes>
-void build_levels(const levels_shape& s, std::array<float*, 2> maxima, float* row_memory) {
-    for (int j = 1; j < s.count; ++j) {
-        const level& below = s.levels[std::size_t(j - 1)];
-        const level& l = s.levels[std::size_t(j)];
-        const grid& fine = l.occluders;
-        float* const max_from = maxima[std::size_t(j & 1)];
-        float* const max_to = maxima[std::size_t(~j & 1)];
-        for (int y = 0; y < fine.cells.y; ++y) {
-            const float* mean;
-            const float* top;
-            float* max_row = max_from + std::size_t(y) * std::size_t(fine.cells.x);
-            if (j == 1) {
-                mean = base_row(s, y, row_memory);
-                std::copy_n(mean, fine.cells.x, max_row);
-                top = max_row;
-            } else {
-                mean = below.origins.values + below.origins.offset(0, y);
-                top = max_row;
-            }
-            if (fine.plane == 0) {
-                float* to = fine.values + fine.offset(0, y);
-                for (int x = 0; x < fine.cells.x; ++x) to[x] = mean[x] + occluder_bias * (top[x] - mean[x]);
-            } else {
-                float* even = fine.values + fine.offset(0, y);
-                float* odd = even + fine.plane;
-                for (int x = 0; x < fine.cells.x / 2; ++x) {
-                    even[x] = mean[2 * x] + occluder_bias * (top[2 * x] - mean[2 * x]);
-                    odd[x] = mean[2 * x + 1] + occluder_bias * (top[2 * x + 1] - mean[2 * x + 1]);
-                }
-            }
-        }
-        fill_halo(fine, s.edge);
-        const grid& coarse = l.origins;
-        for (int y = 0; y < coarse.cells.y; ++y) {
-            const int y0 = y * l.ratio.y, y1 = y0 + l.ratio.y - 1;
-            const auto max_row = [&](int r) { return max_from + std::size_t(r) * std::size_t(fine.cells.x); };
-            const auto mean_row = [&](int r) {
-                return j == 1 ? max_row(r) : below.origins.values + below.origins.offset(0, r);
-            };
-            halve_row<Holes>(mean_row(y0), mean_row(y1), max_row(y0), max_row(y1), l.ratio, coarse.cells.x,
-                             coarse.values + coarse.offset(0, y),
-                             max_to + std::size_t(y) * std::size_t(coarse.cells.x));
-        }
-        fill_halo(coarse, s.edge);
+        const plane to_top{maxima[std::size_t(j & 1)], l.origins.cells, l.origins.row_step};
+        (holes ? halve<true> : halve<false>)(mean, top, l.ratio, l.origins, to_top);
+        fill_overhang(l.origins, p.edge);
+        if (j > 1 || p.copied) fill_overhang(l.occluders, p.edge);
+        mean = l.origins;
+        top = to_top;
     }
 }
 

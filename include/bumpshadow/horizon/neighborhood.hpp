@@ -163,15 +163,14 @@ template <height_sample Sample>
 //   directions: in surface space (units of texel_size), at least one, of any length; the paper's are the eight
 //   multiples
 //       of 1/8 turn. Slice i of the output is direction i. All of them together cost little more than one.
-//   out: slopes [direction][y][x] of the region's extent: s / sqrt(1 - s^2), s the averaged sine. Never negative, 0
-//   where
-//       no texel is higher, at most 1000; no_horizon at holes
+//   out: slopes, [direction][y][x], of the region's extent: s / sqrt(1 - s^2), s the averaged sine. 0 where no texel is
+//       higher, never negative, at most 1000; no_horizon at holes
 //   options.radius: reach in the unit of texel_size; infinite, the default, stands for the paper's 16 texels
 // A texel affects the directions that pass its center by at most half its diagonal; several where it is near.
 // Errors: what check_bake() and check_samples() find, curvature or distances (not_supported), a radius above 1024
 // texels, scratch. On an error nothing is written. The result does not depend on the executor or the region, bit for
-// bit. Accuracy: it is a smoothed horizon of small range, not an estimate of the exact one: see sine_layers for its
-// errors.
+// bit.
+// Accuracy: a smoothed horizon of small range, which does not approach the exact one.
 template <height_sample Sample, executor Executor = serial>
 [[nodiscard]] status bake_neighborhood(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
                                        const horizon_map& out, const bake_options& options = {},

@@ -1,4 +1,4 @@
-#include "demo/stone_wall.hpp"
+#include "common/stone_wall.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <glm/ext/vector_double2.hpp>
 #include <glm/geometric.hpp>
 
-#include "demo/shade.hpp"
+#include "common/shade.hpp"
 
 namespace examples {
 namespace {

@@ -1,0 +1,62 @@
+#include "common/manifest.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <string>
+
+#include "common/file.hpp"
+
+namespace examples {
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts(1);
+    for (const char c : text)
+        if (c == separator)
+            parts.emplace_back();
+        else if (c != '\r')
+            parts.back() += c;
+    return parts;
+}
+
+}  // namespace
+
+std::vector<height_source> read_manifest(const std::filesystem::path& folder) {
+    const std::filesystem::path path = folder / "MANIFEST.tsv";
+    const std::vector<unsigned char> bytes = read_file(path);
+    const std::vector<std::string> lines = split(std::string(bytes.begin(), bytes.end()), '\n');
+    const std::vector<std::string> names = split(lines.front(), '\t');
+    const auto column = [&](const char* name) {
+        const auto at = std::find(names.begin(), names.end(), name);
+        if (at == names.end()) throw failure("cannot use " + path.string() + ": it has no column " + name);
+        return std::size_t(at - names.begin());
+    };
+    const std::size_t file = column("file"), scale = column("height_scale"), size = column("texel_size"),
+                      tiles = column("tiles");
+
+    std::vector<height_source> maps;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        if (lines[i].empty()) continue;
+        std::vector<std::string> cells = split(lines[i], '\t');
+        cells.resize(std::max(cells.size(), names.size()));
+        const auto number = [&](const std::string& text) {
+            char* end = nullptr;
+            const double value = std::strtod(text.c_str(), &end);
+            if (text.empty() || *end != '\0')
+                throw failure("cannot use " + path.string() + ": line " + std::to_string(i + 1) + " has '" + text +
+                              "' for a number");
+            return value;
+        };
+        const std::vector<std::string> sides = split(cells[size], ' ');
+        height_source map;
+        map.path = (folder / cells[file]).string();
+        map.height_scale = number(cells[scale]);
+        map.texel_size = {number(sides.front()), number(sides.back())};
+        map.edge = cells[tiles] == "yes" ? bumpshadow::edge_mode::repeat : bumpshadow::edge_mode::clamp;
+        maps.push_back(map);
+    }
+    return maps;
+}
+
+}  // namespace examples
