@@ -43,7 +43,7 @@ struct settings {
 };
 
 inline constexpr int yardstick_bearings = 16;
-inline constexpr int fine_steps = 64;
+inline constexpr int fine_steps = 48;
 
 struct measurement {
     std::string name;  // of the map

@@ -53,7 +53,7 @@ struct horizon_map {
 // What every method that bakes horizons takes besides heights, directions and output.
 struct bake_options {
     // Cascade: how many texels of a level its steps reach; error falls and cost grows with it. Other methods ignore it.
-    int steps = 8;
+    int steps = 15;
     // Occluders farther than this are left out, in the unit of texel_size.
     double radius = std::numeric_limits<double>::infinity();
     // Principal curvatures of the base surface along x and y, in 1/unit. Along a bearing the base falls away by

@@ -14,7 +14,7 @@
 
 // The few operations that the hot loops need, on `width` floats at a time. Memory need not be aligned.
 // Of two packs a, b, taken as one row of 2 width values:
-//   next       values 1 ... width
+//   next<n>    values n ... n + width - 1, n = 1 if not given
 //   even, odd  every other one, from the first or from the second
 //   zip_low, zip_high  a[0] b[0] a[1] b[1] ..., its first and its second half
 // The width follows the target of the translation unit: compile all of them for the same one.
@@ -79,7 +79,10 @@ inline pack alternate(pack a, pack b, std::integer_sequence<int, Lane...>) {
     return __builtin_shufflevector(a, b, (First + Lane / 2 + (Lane % 2) * width)...);
 }
 using lanes = std::make_integer_sequence<int, width>;
-inline pack next(pack here, pack after) { return pick<1, 1>(here, after, lanes()); }
+template <int Ahead = 1>
+inline pack next(pack here, pack after) {
+    return pick<Ahead, 1>(here, after, lanes());
+}
 inline pack even(pack a, pack b) { return pick<0, 2>(a, b, lanes()); }
 inline pack odd(pack a, pack b) { return pick<1, 2>(a, b, lanes()); }
 inline pack zip_low(pack a, pack b) { return alternate<0>(a, b, lanes()); }
@@ -130,8 +133,9 @@ inline pack choose(const pack& a, const pack& b, Lane lane) {
 #endif
 
 #if BUMPSHADOW_SIMD != BUMPSHADOW_SIMD_VECTOR_EXTENSIONS
+template <int Ahead = 1>
 inline pack next(const pack& here, const pack& after) {
-    return choose(here, after, [](int i) { return i + 1; });
+    return choose(here, after, [](int i) { return i + Ahead; });
 }
 inline pack even(const pack& a, const pack& b) {
     return choose(a, b, [](int i) { return 2 * i; });

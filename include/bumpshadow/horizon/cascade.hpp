@@ -25,18 +25,19 @@
 
 // The fast method: horizons of unlimited range at a constant cost a sample.
 //
-// Near occluders are looked at texel by texel. Farther ones are found for cells of 2, 4, 8 ... texels, each level reaching
-// four times as far as the one before and looking at heights averaged over half its own cell. What a cell passes down is
-// not a slope but its occluder, as the pair a = H / t, b = 1 / t of the occluder's height H and distance t: the slope that
-// it makes for a height h is a - b h, so that pairs may be interpolated between cells and still give the right slope for
-// each texel's own height.
+// Near occluders are looked at texel by texel. Farther ones are found for cells of 2, 4, 8 ... texels, each level
+// reaching several times as far as the one before and looking at heights averaged over half its own cell. What a cell
+// passes down is not a slope but its occluder, as the pair a = H / t, b = 1 / t of the occluder's height H and distance
+// t: the slope that it makes for a height h is a - b h, so that pairs may be interpolated between cells and still give
+// the right slope for each texel's own height.
 
 namespace bumpshadow {
 
 namespace cascade_detail {
 
-inline constexpr int strip = (std::max)(256, chunk);  // columns done together, so that the rows they look at stay cached
-inline constexpr int block_rows = 64;                 // texels of several levels, and the output, are done together
+inline constexpr int strip =
+    (std::max)(256, chunk);            // columns done together, so that the rows they look at stay cached
+inline constexpr int block_rows = 64;  // texels of several levels, and the output, are done together
 
 // The map, or its transpose, with its levels.
 struct frame {
@@ -70,8 +71,9 @@ struct reach {
     reach s;
     for (int j = 0; j < p.count; ++j) {
         const double from = j > 0 ? s.to[std::size_t(j) - 1] : 0.0;
-        const double wanted = j == p.count - 1 ? r.farthest : j == 0 ? steps / std::abs(r.step.y) : growth * from;
-        const double most = j == 0 ? double(most_looks(steps)) / std::abs(r.step.y) : double(most_rows) / level_row_step(p, r, j);
+        const double wanted = j == p.count - 1 ? r.farthest : j == 0 ? steps / std::abs(r.step.y) : growth(j) * from;
+        const double most =
+            j == 0 ? double(most_looks(steps)) / std::abs(r.step.y) : double(most_rows) / level_row_step(p, r, j);
         s.to[std::size_t(j)] = (std::min)({wanted, r.farthest, from + most});
         s.top = j;
         if (s.to[std::size_t(j)] >= r.farthest) break;
@@ -79,18 +81,21 @@ struct reach {
     return s;
 }
 
-// Occluders farther than this are beyond the radius or all borders, or make slopes of less than 1/1024 (0.06 degrees) on
-// a map that repeats and has been seen eight times over.
+// Occluders farther than this are beyond the radius or all borders, or make slopes of less than 1/1024 (0.06 degrees)
+// on a map that repeats and has been seen four times over.
 [[nodiscard]] inline double farthest_distance(const job& j, const pyramid& p, glm::dvec2 step, bool never_negative) {
     double farthest = j.options.radius / p.unit;
     const glm::dvec2 extent(p.texels.texels);
     if (p.edge == edge_mode::clamp || p.edge == edge_mode::open) {
         const double x = (extent.x + 1.0) / std::abs(step.x), y = (extent.y + 1.0) / std::abs(step.y);
-        if (p.edge == edge_mode::open) farthest = (std::min)({farthest, x, y});
-        else farthest = (std::min)(farthest, step.x == 0.0 ? y : (std::max)(x, y));
+        if (p.edge == edge_mode::open)
+            farthest = (std::min)({farthest, x, y});
+        else
+            farthest = (std::min)(farthest, step.x == 0.0 ? y : (std::max)(x, y));
     } else if (never_negative || std::isinf(farthest)) {
         const double low = 1024.0 * (double(j.range.highest) - double(j.range.lowest)) + 1.0;
-        farthest = (std::min)({farthest, low, (std::max)(4096.0, 8.0 * (std::max)(extent.x, extent.y)) / std::abs(step.y)});
+        farthest =
+            (std::min)({farthest, low, (std::max)(4096.0, 4.0 * (std::max)(extent.x, extent.y)) / std::abs(step.y)});
     }
     return farthest;
 }
@@ -102,26 +107,34 @@ struct slot {
     const float** rows = nullptr;
     std::ptrdiff_t* lane_zero = nullptr;
     float* ring = nullptr;
-    std::array<float*, 2> pair_values{};  // of odd and of even levels
+    std::array<float*, 2> pair_values{};                               // of odd and of even levels
     float *heights = nullptr, *slopes = nullptr, *inverses = nullptr;  // of a row of cells
     float* parent_line = nullptr;
     std::size_t line_floats = 0;
-    float* block = nullptr;               // rows of the transposed map, slopes and then distances
+    float* block = nullptr;  // rows of the transposed map, slopes and then distances
 };
 
 // The most that any direction needs at level j of whole maps.
 struct far_size {
     int lanes = 0, rows = 0, window = 0;
 
-    [[nodiscard]] std::size_t pair_floats() const { return std::size_t(lanes) * std::size_t(rows) + 4 * std::size_t(chunk); }
-    [[nodiscard]] std::size_t ring_floats() const { return std::size_t(lanes + window) * std::size_t(window) + std::size_t(chunk); }
+    [[nodiscard]] std::size_t pair_floats() const {
+        return std::size_t(lanes) * std::size_t(rows) + 4 * std::size_t(chunk);
+    }
+    [[nodiscard]] std::size_t ring_floats() const {
+        return std::size_t(ring_lanes()) * std::size_t(window) + std::size_t(chunk);
+    }
+    // The rows of cells that look at a row are as many lanes apart as rows, at the most.
+    [[nodiscard]] int ring_lanes() const { return lanes + (std::min)(window / 2 + 1, rows) + 3 * simd::width; }
 };
 [[nodiscard]] inline far_size size_far(const pyramid& p, int level, int steps) {
     const plane& cells = p.levels[std::size_t(level)].origins;
     far_size s;
     s.lanes = lanes_for(cells.cells.x + 16.0) + lanes_for(0.0);
     s.rows = cells.cells.y + 10;
-    const double rows = 2.0 * steps * std::pow(growth, level) / double(1 << level) + 4.0;
+    double rows = 2.0 * steps;
+    for (int j = 1; j <= level; ++j) rows *= 0.5 * growth(j);
+    rows += 4.0;
     s.window = level == p.count - 1 ? most_rows : int((std::min)(rows, double(most_rows)));
     return s;
 }
@@ -142,7 +155,7 @@ void for_arrays(const job& j, slot& s, int steps, Array&& array) {
         for (int level = 1; level < f.levels.count; ++level) {
             const far_size size = size_far(f.levels, level, steps);
             ring = (std::max)(ring, size.ring_floats());
-            line = (std::max)(line, 2 * std::size_t(size.lanes + size.window));
+            line = (std::max)(line, std::size_t(size.ring_lanes()));
             std::size_t& values = pair_values[level & 1];
             values = (std::max)(values, 2 * size.pair_floats());
         }
@@ -159,17 +172,25 @@ void for_arrays(const job& j, slot& s, int steps, Array&& array) {
 template <bool Holes>
 class cells_pass {
 public:
-    cells_pass(const pyramid& p, int j, const ray& r, double from, double to, const pairs* parent, const pairs& found, slot& s)
-        : l_(p.levels[std::size_t(j)]), edge_(p.edge), down_(r.step.y > 0.0), found_(found), s_(s),
-          bring_{parent, {0.5, -0.25 + 0.25 * found.at.tangent, 0.0}, 0.5, 0.5, s.parent_line, s.line_floats},
+    cells_pass(const pyramid& p, int j, const ray& r, double from, double to, const pairs* parent, const pairs& found,
+               slot& s)
+        : l_(p.levels[std::size_t(j)]),
+          edge_(p.edge),
+          down_(r.step.y > 0.0),
+          found_(found),
+          s_(s),
+          bring_{parent, {0.5, -0.25, 0.0}, 0.5, 0.5, s.parent_line, s.line_floats},
           row_(found.at.first_row) {
         // The n-th row on is n - 1/2 rows away, since a cell's center lies between two rows.
         const double row_step = level_row_step(p, r, j);
         first_ = std::int64_t(std::floor(from * row_step + 0.5 + 1e-9)) + 1;
-        const auto last = (std::min)(std::int64_t(std::floor(to * row_step + 0.5 + 1e-9)), first_ + most_rows - 3);
+        // The last one is the row nearest to where looking ends, and counts as being there.
+        const bool ends = to >= r.farthest;
+        const double last_row = std::floor(to * row_step + (ends ? 1.0 : 0.5) + 1e-9);
+        const auto last = std::int64_t((std::min)(last_row, double(first_ + most_rows - 3)));
         count_ = int((std::max)(last - first_ + 1, std::int64_t(0)));
         for (int n = 0; n < count_; ++n) {
-            const double t = (double(first_ + n) - 0.5) / row_step;
+            const double t = ends && first_ + n == last ? to : (double(first_ + n) - 0.5) / row_step;
             s_.far[n] = {float(1.0 / t), float(-r.bend * t)};
         }
         window_ = count_ + 2;
@@ -185,7 +206,8 @@ public:
         for (end = (std::min)(end, std::int64_t(at.first_row) + at.rows); row_ < end; ++row_) {
             const std::int64_t lane = at.first_lane(row_);
             if (count_ > 0) find_rows(lane);
-            sample_row<1>(l_.origins, edge_, row_, double(lane) + at.tangent * double(row_), at.count, s_.heights);
+            sample_row<1>(l_.origins, edge_, row_, double(lane) + at.tangent * (double(row_) - at.middle), at.count,
+                          s_.heights);
             look_far(s_.rows, s_.far, first_, count_, at.count, s_.heights, s_.slopes, s_.inverses);
             keep(lane);
         }
@@ -205,14 +227,15 @@ private:
                           at.first_lane(std::clamp((b + 1) >> 1, std::int64_t(at.first_row), last_row)));
     }
 
-    // Rows of heights on lanes are kept, in a ring, as long as a row of cells looks at them: rows made_ - window_ and on.
+    // Rows of heights on lanes are kept, in a ring, as long as a row of cells looks at them: rows made_ - window_ and
+    // on.
     void find_rows(std::int64_t lane) {
-        const double tangent = found_.at.tangent;
+        const double tangent = found_.at.tangent, middle = 2.0 * found_.at.middle + 0.5;
         const std::int64_t near = row_on(row_, 0), end = (std::max)(near, row_on(row_, count_ - 1)) + 1;
         for (; made_ < end; ++made_) {
             const std::int64_t first = first_lane_of(made_);
-            sample_row<2>(l_.occluders, edge_, made_, 2.0 * double(first) + 0.5 + tangent * (double(made_) - 0.5), stride_,
-                          s_.ring + std::ptrdiff_t(next_slot_) * stride_);
+            sample_row<2>(l_.occluders, edge_, made_, 2.0 * double(first) + 0.5 + tangent * (double(made_) - middle),
+                          stride_, s_.ring + std::ptrdiff_t(next_slot_) * stride_);
             s_.lane_zero[next_slot_] = std::ptrdiff_t(next_slot_) * stride_ - first;
             if (++next_slot_ == window_) next_slot_ = 0;
         }
@@ -270,7 +293,11 @@ private:
 class writer {
 public:
     writer(const job& j, int bearing, bool transposed, float* block)
-        : j_(j), bearing_(bearing), transposed_(transposed), with_distances_(!j.options.distances.values.empty()), block_(block) {}
+        : j_(j),
+          bearing_(bearing),
+          transposed_(transposed),
+          with_distances_(!j.options.distances.values.empty()),
+          block_(block) {}
 
     // Where the slopes, and the inverse distances, of a piece of a row go. All pieces of a block begin at the same x.
     [[nodiscard]] float* slopes() { return block_ + filled_ * (strip + chunk); }
@@ -341,28 +368,47 @@ private:
 
 // Bakes a rectangle of texels, in the coordinates of its frame, from what their parents see.
 template <bool Holes, bool Track>
-void look_from_texels(const pyramid& p, rectangle texels, float floor, const pairs* parent, double tangent, slot& s, writer& to) {
+void look_from_texels(const pyramid& p, const ray& r, rectangle texels, float floor, const pairs* parent,
+                      double tangent, slot& s, writer& to) {
     const glm::dvec2 base = p.base;
     const interpolation bring{parent,
-                              {0.5 * base.x, 0.25 * base.x - 0.5 - 0.5 * tangent * (0.5 * base.y - 1.0),
+                              {0.5 * base.x, 0.25 * base.x - 0.5 - 0.5 * tangent * (0.5 * base.y - 0.5 - p.middle(0)),
                                -0.5 * tangent * base.y},
                               0.5 * base.y,
                               1.0 / base.y - 0.5,
                               s.parent_line,
                               s.line_floats};
     const glm::ivec2 end = texels.origin + texels.extent;
+    const bool open = Holes && p.edge == edge_mode::open;
+    // Inverse of the distance at which a ray leaves an open map, on the side that it goes to; a quarter of it is added,
+    // since what a cell sees on the border may be as much farther away for it than for its texels.
+    const auto inverse_of_end = [](double step, int at, int texels_of_axis) {
+        const double way = step > 0.0 ? texels_of_axis - 1 - at : at;
+        return step == 0.0 ? 0.0f : way > 0.0 ? float(0.8 * std::abs(step) / way) : inverse_of_zero;
+    };
+    float end_of_columns[strip + chunk];
     for (int x = texels.origin.x; x < end.x; x += strip) {
         const int count = (std::min)(strip, end.x - x);
         const int lanes = (count + simd::width - 1) / simd::width * simd::width;
+        for (int i = 0; open && i < lanes; ++i)
+            end_of_columns[i] = inverse_of_end(r.step.x, (std::min)(x + i, end.x - 1), p.texels.texels.x);
         for (int y = texels.origin.y; y < end.y; ++y) {
             const float* const heights = p.texels.values + p.texels.offset(x, y);
             float *const slopes = to.slopes(), *const inverses = to.inverses();
             int i = 0;
-            for (; i + chunk <= lanes; i += chunk) look_around<packs, Track>(s.near, heights + i, floor, slopes + i, inverses + i);
-            for (; i < lanes; i += simd::width) look_around<1, Track>(s.near, heights + i, floor, slopes + i, inverses + i);
+            for (; i + chunk <= lanes; i += chunk)
+                look_around<packs, Track>(s.near, heights + i, floor, slopes + i, inverses + i);
+            for (; i < lanes; i += simd::width)
+                look_around<1, Track>(s.near, heights + i, floor, slopes + i, inverses + i);
             if (parent != nullptr) {
                 bring.template operator()<Holes>(x, y, lanes, [&](int k, simd::pack a, simd::pack b) {
-                    const simd::pack own = simd::load(slopes + k), theirs = slope_of(a, b, simd::load(heights + k));
+                    const simd::pack own = simd::load(slopes + k);
+                    simd::pack theirs = slope_of(a, b, simd::load(heights + k));
+                    if (open) {
+                        const simd::pack end_of_row = simd::splat(inverse_of_end(r.step.y, y, p.texels.texels.y));
+                        const simd::pack end_of_ray = simd::max(simd::load(end_of_columns + k), end_of_row);
+                        theirs = simd::select_greater(end_of_ray, b, simd::splat(hole), theirs);
+                    }
                     if constexpr (Track)
                         simd::store(inverses + k, simd::select_greater(theirs, own, b, simd::load(inverses + k)));
                     simd::store(slopes + k, simd::max(theirs, own));
@@ -419,15 +465,16 @@ void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texe
     for (int i = 1; i <= range.top; ++i) {
         first = {0.5 * first.x - 2.25, std::floor(0.5 * first.y - 0.25)};
         last = {0.5 * last.x + 2.75, std::floor(0.5 * last.y - 0.25) + 1.0};
-        at[std::size_t(i)] = {tangent, first.x, int(first.y), int(last.y - first.y) + 1, lanes_for(last.x - first.x)};
+        at[std::size_t(i)] = {
+            tangent, p.middle(i), first.x, int(first.y), int(last.y - first.y) + 1, lanes_for(last.x - first.x)};
     }
     // All of the levels above 1 first; then level 1 and the texels in step, so that what both look at is still cached.
     const auto pass = [&](int i, const pairs* parent) {
         pairs found{.at = at[std::size_t(i)]};
         found.a = s.pair_values[std::size_t(i & 1)] + chunk;
         found.b = found.a + size_far(p, i, j.options.steps).pair_floats();
-        return std::pair(found, cells_pass<Holes>(p, i, r, range.to[std::size_t(i) - 1], range.to[std::size_t(i)], parent,
-                                                  found, s));
+        return std::pair(found, cells_pass<Holes>(p, i, r, range.to[std::size_t(i) - 1], range.to[std::size_t(i)],
+                                                  parent, found, s));
     };
     pairs parent;
     for (int i = range.top; i > 1; --i) {
@@ -436,14 +483,15 @@ void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texe
         parent = found;
     }
     const double near = j.options.steps / std::abs(h.step.y);
-    choose_looks(r, p.texels, p.edge, range.to[0], near / 4.0, near / 8.0, most_looks(j.options.steps) - 2, s.near);
+    choose_looks(r, p.texels, p.edge, range.to[0], near / 4.0, near / 8.0, Holes, most_looks(j.options.steps) - 2,
+                 s.near);
     const float floor = never_negative ? 0.0f : hole;
     writer to(j, bearing, h.transposed, s.block);
     const auto look = [&](rectangle band, const pairs* above) {
         if (j.options.distances.values.empty())
-            look_from_texels<Holes, false>(p, band, floor, above, tangent, s, to);
+            look_from_texels<Holes, false>(p, r, band, floor, above, tangent, s, to);
         else
-            look_from_texels<Holes, true>(p, band, floor, above, tangent, s, to);
+            look_from_texels<Holes, true>(p, r, band, floor, above, tangent, s, to);
     };
     if (range.top == 0) {
         look(texels, nullptr);
@@ -471,9 +519,14 @@ void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texe
 
 template <height_sample Sample>
 [[nodiscard]] job make_job(const height_map<Sample>& heights, const horizon_map& out, const bake_options& options) {
-    job j{.frames = {}, .range = {}, .options = options, .out = out, .region = region_or_all(options.region, heights.extent)};
+    job j{.frames = {},
+          .range = {},
+          .options = options,
+          .out = out,
+          .region = region_or_all(options.region, heights.extent)};
     j.frames[0].levels = shape_pyramid(heights.extent, heights.texel_size, heights.edge, options.steps);
-    j.frames[1].levels = shape_pyramid(swapped(heights.extent), swapped(heights.texel_size), heights.edge, options.steps);
+    j.frames[1].levels =
+        shape_pyramid(swapped(heights.extent), swapped(heights.texel_size), heights.edge, options.steps);
     j.frames[1].transposed = true;
     return j;
 }
@@ -490,8 +543,8 @@ template <height_sample Sample>
 
 }  // namespace cascade_detail
 
-// Bytes of scratch that bake_cascade takes for these heights on an executor of that concurrency, at the most; no more for
-// more directions.
+// Bytes of scratch that bake_cascade takes for these heights on an executor of that concurrency, at the most; no more
+// for more directions.
 template <height_sample Sample>
 [[nodiscard]] std::size_t cascade_scratch_size(const height_map<Sample>& heights, const bake_options& options = {},
                                                int concurrency = 1) {
@@ -517,23 +570,24 @@ template <height_sample Sample, executor Executor = serial>
     const std::size_t items = directions.size() * std::size_t(bands);
     const int slots = slot_pool::slots(execute.concurrency(), items);
     scratch_block block;
-    if (status s = block.allocate(options, scratch_bytes(j, options.steps, slots), "the cascade's scratch"); !s) return s;
+    if (status s = block.allocate(options, scratch_bytes(j, options.steps, slots), "the cascade's scratch"); !s)
+        return s;
 
     const bool holes = heights.no_data.has_value() || heights.edge == edge_mode::open;
     bool wanted[2] = {};
     for (const glm::dvec2 d : directions) wanted[head(d, j.frames[0].levels.spacing).transposed ? 1 : 0] = true;
-    for (frame& f : j.frames) {
-        if (f.transposed && !wanted[1]) continue;
-        f.levels.texels.values = block.carve<float>(f.levels.texels.size());
-        if (f.transposed)
-            transpose_ground(j.frames[0].levels, f.levels);
-        else
-            j.range = fill_ground(heights, f.levels);
-        if (wanted[f.transposed ? 1 : 0]) build_pyramid(f.levels, holes, block);
-    }
+    std::array<pyramid_scratch, 2> building;
+    for (std::size_t i = 0; i < 2; ++i) building[i] = carve_pyramid(j.frames[i].levels, block);
+    j.range = fill_ground(heights, j.frames[0].levels);
+    execute(2, [&](std::size_t i) {
+        if (!wanted[i]) return;
+        if (i == 1) transpose_ground(j.frames[0].levels, j.frames[1].levels);
+        build_pyramid(j.frames[i].levels, holes, building[i]);
+    });
     slot* const slot_list = block.carve<slot>(std::size_t(slots));
     for (int i = 0; i < slots; ++i)
-        for_arrays(j, slot_list[i], options.steps, [&]<class T>(T*& array, std::size_t count) { array = block.carve<T>(count); });
+        for_arrays(j, slot_list[i], options.steps,
+                   [&]<class T>(T*& array, std::size_t count) { array = block.carve<T>(count); });
 
     slot_pool pool(slots);
     execute(items, [&](std::size_t item) {
@@ -546,6 +600,33 @@ template <height_sample Sample, executor Executor = serial>
                                                          slot_list[lease.index()]);
     });
     return {};
+}
+
+// Texels whose horizons may be others when heights in a rectangle of the map change: what to bake again, bit for bit
+// the same as baking everything. All of the map unless the radius is finite; on a map that tiles, all of an axis where
+// the rectangle would cross a border.
+template <height_sample Sample>
+[[nodiscard]] rectangle influence(const height_map<Sample>& heights, rectangle changed, const bake_options& options) {
+    const rectangle all{glm::ivec2(0), heights.extent};
+    if (std::isinf(options.radius)) return all;
+    // Cells of the highest level that looks within the radius, which take part in those next to them.
+    const glm::dvec2 radius = options.radius / heights.texel_size;
+    double reach = options.steps, cell = 1.0;
+    for (int level = 1; reach < (std::max)(radius.x, radius.y); ++level) {
+        reach *= cascade_detail::growth(level);
+        cell *= 2.0;
+    }
+    const bool tiles = heights.edge == edge_mode::repeat || heights.edge == edge_mode::mirror;
+    const auto along = [&](int from, int count, double reach_of_axis, int texels) {
+        const double margin = reach_of_axis + 6.0 * cell + 2.0;
+        const double first = from - margin, last = double(from) + count + margin;
+        if (tiles && (first < 0.0 || last > texels)) return glm::ivec2(0, texels);
+        const int begin = int((std::max)(first, 0.0)), end = int((std::min)(last, double(texels)));
+        return glm::ivec2(begin, end - begin);
+    };
+    const glm::ivec2 x = along(changed.origin.x, changed.extent.x, radius.x, heights.extent.x);
+    const glm::ivec2 y = along(changed.origin.y, changed.extent.y, radius.y, heights.extent.y);
+    return {{x.x, y.x}, {x.y, y.y}};
 }
 
 }  // namespace bumpshadow

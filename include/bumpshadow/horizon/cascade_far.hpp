@@ -16,9 +16,10 @@
 
 // The levels above 0 of the cascade. Part of horizon/cascade.hpp.
 //
-// Their cells stand on a lattice that is sheared along the ray: lane i of row Y stands at column i + tangent * Y. All rays
-// of one lane are then one line, so that each row of heights is interpolated onto the lanes once, and looking at it
-// costs one aligned load.
+// Their cells stand on a lattice that is sheared along the ray: lane i of row Y stands at column i + tangent * (Y -
+// middle), where middle is that of the map, so that a mirrored map has a mirrored lattice. All rays of one lane are
+// then one line, so that each row of heights is interpolated onto the lanes once, and looking at it costs one aligned
+// load.
 namespace bumpshadow::cascade_detail {
 
 inline constexpr int most_rows = 4096;  // that a level looks at
@@ -26,12 +27,13 @@ inline constexpr int most_rows = 4096;  // that a level looks at
 // Rows of a lattice, each of `count` lanes from a multiple of the pack width on.
 struct lattice {
     double tangent = 0.0;  // columns a row
+    double middle = 0.0;   // the row where lane i is column i
     double left = 0.0;     // first column that is wanted of every row
     int first_row = 0, rows = 0;
-    int count = 0;         // lanes, a multiple of the pack width
+    int count = 0;  // lanes, a multiple of the pack width
 
     [[nodiscard]] std::int64_t first_lane(std::int64_t row) const {
-        const std::int64_t lane = std::int64_t(std::floor(left - tangent * double(row)));
+        const std::int64_t lane = std::int64_t(std::floor(left - tangent * (double(row) - middle)));
         return lane - ((lane % simd::width) + simd::width) % simd::width;
     }
 };
@@ -41,8 +43,8 @@ struct lattice {
     return (int(columns) + 2 + 2 * simd::width - 1) / simd::width * simd::width;
 }
 
-// What cells see, as pairs: a occluder of height H at distance t is (a, b) = (H / t, 1 / t), and its slope for a height h
-// is a - b h.
+// What cells see, as pairs: a occluder of height H at distance t is (a, b) = (H / t, 1 / t), and its slope for a height
+// h is a - b h.
 struct pairs {
     float* a = nullptr;
     float* b = nullptr;
@@ -53,8 +55,8 @@ struct pairs {
     }
 };
 
-// Heights of a row of a plane at `count` lanes (a multiple of the pack width), Stride cells apart, the first at x. Writes up
-// to a pack more.
+// Heights of a row of a plane at `count` lanes (a multiple of the pack width), Stride cells apart, the first at x.
+// Writes up to a pack more.
 template <int Stride>
 inline void sample_row(const plane& p, edge_mode edge, std::int64_t y, double x, int count, float* to) {
     const std::int64_t row = resolve_edge(y, p.cells.y, edge);
@@ -89,7 +91,7 @@ inline void sample_row(const plane& p, edge_mode edge, std::int64_t y, double x,
         } else {
             float around[overhang];
             for (int k = 0; k <= Stride * simd::width; ++k) {
-                const std::int64_t from = resolve_edge(cell + k, width, edge);
+                const std::int64_t from = resolve_column(cell + k, width, edge);
                 around[k] = from < 0 ? hole : cells[from];
             }
             blend(around, i);
@@ -131,20 +133,16 @@ struct interpolation {
             with_holes(upper, lower, below, part, count, visit);
             return;
         }
-        const int wanted = int(lanes.scale * count) + 3;
         const simd::pack v = simd::splat(below), w = simd::splat(1.0f - below);
-        float *const line_a = line, *const line_b = line + line_floats;
-        for (int i = 0; i < wanted; i += simd::width) {
-            const auto blend = [&](const float* from) {
-                return simd::multiply_add(simd::load(from + lower + i), v, simd::multiply(simd::load(from + upper + i), w));
-            };
-            simd::store(line_a + i, blend(parent->a));
-            simd::store(line_b + i, blend(parent->b));
-        }
-        if (lanes.scale == 0.5)
-            double_up(line_a, line_b, part, count, visit);
+        const auto blend_rows = [&](const float* from, int i) {
+            return simd::multiply_add(simd::load(from + lower + i), v, simd::multiply(simd::load(from + upper + i), w));
+        };
+        if (lanes.scale != 0.5)
+            stretch(blend_rows, part, count, visit);
+        else if (part < 0.5)
+            double_up<0>(blend_rows, part, count, visit);
         else
-            stretch(line_a, line_b, part, count, visit);
+            double_up<1>(blend_rows, part, count, visit);
     }
 
 private:
@@ -152,27 +150,40 @@ private:
         return simd::multiply_add(simd::subtract(right, left), part, left);
     }
 
-    // Two lanes to each of the parent's: lane 2 i lies `part` after parent i, and lane 2 i + 1 half a cell on.
-    template <class Visit>
-    static void double_up(const float* line_a, const float* line_b, double part, int count, Visit&& visit) {
-        const int step = part < 0.5 ? 0 : 1;
-        const simd::pack even_part = simd::splat(float(part)), odd_part = simd::splat(float(part + 0.5 - step));
+    // Two lanes to each of the parent's: lane 2 i lies `part` after parent i, and lane 2 i + 1 half a cell on, which is
+    // after parent i + Step.
+    template <int Step, class Blend, class Visit>
+    void double_up(const Blend& blend_rows, double part, int count, Visit& visit) const {
+        const simd::pack even_part = simd::splat(float(part)), odd_part = simd::splat(float(part + 0.5 - Step));
+        simd::pack a = blend_rows(parent->a, 0), b = blend_rows(parent->b, 0);
         for (int i = 0; 2 * i < count; i += simd::width) {
-            const auto even = [&](const float* l) { return between(simd::load(l + i), simd::load(l + i + 1), even_part); };
-            const auto odd = [&](const float* l) {
-                return between(simd::load(l + i + step), simd::load(l + i + step + 1), odd_part);
+            const simd::pack after_a = blend_rows(parent->a, i + simd::width),
+                             after_b = blend_rows(parent->b, i + simd::width);
+            const auto odd = [&](simd::pack here, simd::pack next, simd::pack after) {
+                return Step == 0 ? between(here, next, odd_part) : between(next, simd::next<2>(here, after), odd_part);
             };
-            const simd::pack even_a = even(line_a), odd_a = odd(line_a), even_b = even(line_b), odd_b = odd(line_b);
+            const simd::pack next_a = simd::next(a, after_a), next_b = simd::next(b, after_b);
+            const simd::pack even_a = between(a, next_a, even_part), odd_a = odd(a, next_a, after_a);
+            const simd::pack even_b = between(b, next_b, even_part), odd_b = odd(b, next_b, after_b);
             visit(2 * i, simd::zip_low(even_a, odd_a), simd::zip_low(even_b, odd_b));
             if (2 * i + simd::width < count)
                 visit(2 * i + simd::width, simd::zip_high(even_a, odd_a), simd::zip_high(even_b, odd_b));
+            a = after_a;
+            b = after_b;
         }
     }
 
-    template <class Visit>
-    void stretch(const float* line_a, const float* line_b, double part, int count, Visit&& visit) const {
+    template <class Blend, class Visit>
+    void stretch(const Blend& blend_rows, double part, int count, Visit& visit) const {
+        const int wanted = int(lanes.scale * count) + 3;
+        float *const line_a = line, *const line_b = line + line_floats;
+        for (int i = 0; i < wanted; i += simd::width) {
+            simd::store(line_a + i, blend_rows(parent->a, i));
+            simd::store(line_b + i, blend_rows(parent->b, i));
+        }
         for (int i = 0; i < count; i += simd::width) {
-            float left_a[simd::width], right_a[simd::width], left_b[simd::width], right_b[simd::width], parts[simd::width];
+            float left_a[simd::width], right_a[simd::width], left_b[simd::width], right_b[simd::width],
+                parts[simd::width];
             for (int k = 0; k < simd::width; ++k) {
                 const double x = part + lanes.scale * double(i + k);
                 const int cell = int(x);
@@ -181,13 +192,15 @@ private:
                 parts[k] = float(x - cell);
             }
             const simd::pack p = simd::load(parts);
-            visit(i, between(simd::load(left_a), simd::load(right_a), p), between(simd::load(left_b), simd::load(right_b), p));
+            visit(i, between(simd::load(left_a), simd::load(right_a), p),
+                  between(simd::load(left_b), simd::load(right_b), p));
         }
     }
 
     // Parents that saw nothing do not take part, and where none is left nothing is seen.
     template <class Visit>
-    void with_holes(std::ptrdiff_t upper, std::ptrdiff_t lower, float below, double part, int count, Visit&& visit) const {
+    void with_holes(std::ptrdiff_t upper, std::ptrdiff_t lower, float below, double part, int count,
+                    Visit& visit) const {
         for (int i = 0; i < count; i += simd::width) {
             float a[simd::width], b[simd::width];
             for (int k = 0; k < simd::width; ++k) {
@@ -197,7 +210,8 @@ private:
                 float sum = 0.0f, sum_a = 0.0f, sum_b = 0.0f;
                 for (int corner = 0; corner < 4; ++corner) {
                     const std::ptrdiff_t at = (corner < 2 ? upper : lower) + cell + (corner & 1);
-                    const float weight = ((corner & 1) != 0 ? right : 1.0f - right) * (corner < 2 ? 1.0f - below : below);
+                    const float weight =
+                        ((corner & 1) != 0 ? right : 1.0f - right) * (corner < 2 ? 1.0f - below : below);
                     if (parent->a[at] < hole_limit || weight == 0.0f) continue;
                     sum += weight;
                     sum_a += weight * parent->a[at];
@@ -226,10 +240,11 @@ struct far_row {
 // from a cell's height to those of its texels.
 inline constexpr int alone_before = 16, in_pairs_before = 32;
 
-// Looks from Packs packs of cells at rows of heights on the same lanes. heights: the cells' own; first: n of the first row
+// Looks from Packs packs of cells at rows of heights on the same lanes. heights: the cells' own; first: n of the first
+// row
 template <int Packs>
-inline void look_far_from(const float* const* rows, const far_row* far, std::int64_t first, int count, std::ptrdiff_t lane,
-                          const float* heights, float* slopes, float* inverses) {
+inline void look_far_from(const float* const* rows, const far_row* far, std::int64_t first, int count,
+                          std::ptrdiff_t lane, const float* heights, float* slopes, float* inverses) {
     using simd::pack;
     pack depth[Packs], best[Packs], best_inverse[Packs];
     for (int u = 0; u < Packs; ++u) {

@@ -18,19 +18,24 @@
 
 // The pyramid of heights that horizon/cascade.hpp looks at. Part of that header; nothing here is public.
 //
-// Level 0 is the map itself, with a halo in which the edge mode has been carried out, so that its loops need not ask where
-// the border is. At level j >= 1 horizons are found for cells of 2^j texels, looking at heights of the level below.
+// Level 0 is the map itself, with a halo in which the edge mode has been carried out, so that its loops need not ask
+// where the border is. At level j >= 1 horizons are found for cells of 2^j texels, looking at heights of the level
+// below.
 namespace bumpshadow::cascade_detail {
 
 inline constexpr int most_levels = 32;
-inline constexpr int border = 8;              // texels that level 0 has beyond its halo
+inline constexpr int border = 8;  // texels that level 0 has beyond its halo
 inline constexpr int overhang = 2 * simd::width + 2;
 inline constexpr float hole = -1e37f;         // height of a hole; far enough below to never occlude
 inline constexpr float hole_limit = -1e20f;   // what is below has a hole in it
 inline constexpr float occluder_bias = 0.4f;  // a coarse occluder is its mean and this part of the way to its maximum
-inline constexpr double growth = 4.0;         // a level reaches so much farther than the one before
 
-// Heights without a border; but each row goes on for `overhang` cells as the edge says, so that packs may begin anywhere.
+// How much farther a level reaches than the one below. High levels see more sharply than their cells are placed, so
+// that they can do with less.
+[[nodiscard]] constexpr double growth(int level) { return level <= 2 ? 3.5 : 2.5; }
+
+// Heights without a border; but each row goes on for `overhang` cells as the edge says, so that packs may begin
+// anywhere.
 struct plane {
     float* values = nullptr;
     glm::ivec2 cells{0};
@@ -61,20 +66,26 @@ struct level {
 // How the levels of a map lie in memory; the same for all directions. Lengths are in units of `unit`.
 struct pyramid {
     edge_mode edge = edge_mode::repeat;
-    double unit = 1.0;         // length that counts as 1 inside: the smaller texel size
-    glm::dvec2 spacing{1.0};   // between texels
-    glm::dvec2 base{1.0};      // cells of the finest grid that can be halved, over texels; 1 but for odd maps that tile
-    bool copied = false;       // that grid is not level 0 itself
-    int count = 1;             // levels
+    double unit = 1.0;        // length that counts as 1 inside: the smaller texel size
+    glm::dvec2 spacing{1.0};  // between texels
+    glm::dvec2 base{1.0};     // cells of the finest grid that can be halved, over texels; 1 but for odd maps that tile
+    bool copied = false;      // that grid is not level 0 itself
+    int count = 1;            // levels
     ground texels;
     std::array<level, most_levels> levels{};  // from 1 on
 
     [[nodiscard]] bool resampled() const { return base.x != 1.0 || base.y != 1.0; }
+    // The row in the middle of the map, counted in cells of a level.
+    [[nodiscard]] double middle(int level) const {
+        double row = 0.5 * (double(texels.texels.y) * base.y - 1.0);
+        for (int j = 0; j < level; ++j) row = 0.5 * (row - 0.5);
+        return row;
+    }
 };
 
 // After so many cells a row repeats itself or, for clamp and open, changes no more.
 [[nodiscard]] constexpr std::int64_t period(int cells, edge_mode edge) {
-    return edge == edge_mode::mirror ? 2 * std::int64_t(cells)
+    return edge == edge_mode::mirror   ? 2 * std::int64_t(cells)
            : edge == edge_mode::repeat ? std::int64_t(cells)
                                        : std::int64_t(cells) + border;
 }
@@ -93,7 +104,7 @@ struct pyramid {
         return int((unsigned(texels) + block - 1) / block * block);
     };
     const glm::ivec2 cells(base_cells(extent.x), base_cells(extent.y));
-    p.copied = cells.x != extent.x || cells.y != extent.y;
+    p.copied = cells.x != extent.x || cells.y != extent.y || edge == edge_mode::open;
     if (edge == edge_mode::repeat || edge == edge_mode::mirror) p.base = glm::dvec2(cells) / glm::dvec2(extent);
 
     const auto halo = [&](int texels) {
@@ -121,10 +132,18 @@ struct pyramid {
     return std::size_t(p.row_step) * std::size_t(p.cells.y);
 }
 
+// Column of a plane that stands in for column x, or -1. Beside the border of an open map the surface is taken to go on
+// for two cells, since a cell there stands for texels that see along the border; what a texel itself cannot see is left
+// out at the end.
+[[nodiscard]] inline std::int64_t resolve_column(std::int64_t x, std::int64_t cells, edge_mode edge) {
+    if (edge == edge_mode::open && x >= -2 && x < cells + 2) edge = edge_mode::clamp;
+    return resolve_edge(x, cells, edge);
+}
+
 inline void fill_overhang(const plane& p, edge_mode edge) {
     for (int y = 0; y < p.cells.y; ++y)
         for (int x = p.cells.x; x < p.cells.x + overhang; ++x) {
-            const std::int64_t from = resolve_edge(x, p.cells.x, edge);
+            const std::int64_t from = resolve_column(x, p.cells.x, edge);
             p.row(y)[x] = from < 0 ? hole : p.row(y)[from];
         }
 }
@@ -285,24 +304,34 @@ void halve(const plane& mean, const plane& top, glm::ivec2 ratio, const plane& t
     }
 }
 
-// Builds the levels from 1 on; level 0 has to be filled. Planes are carved from `block` as add_pyramid counted them.
-inline void build_pyramid(pyramid& p, bool holes, scratch_block& block) {
+// Takes the memory of a pyramid, as add_pyramid counted it.
+struct pyramid_scratch {
     std::array<float*, 2> maxima{};
+    float* row = nullptr;
+};
+[[nodiscard]] inline pyramid_scratch carve_pyramid(pyramid& p, scratch_block& block) {
+    pyramid_scratch s;
+    p.texels.values = block.carve<float>(p.texels.size());
     for (int j = 1; j < p.count; ++j) {
         level& l = p.levels[std::size_t(j)];
-        if (j > 1 || p.copied) l.occluders.values = block.carve<float>(plane_floats(l.occluders));
+        if (j == 1 && !p.copied)
+            l.occluders = {p.texels.values + p.texels.offset(0, 0), p.texels.texels, p.texels.row_step};
+        else
+            l.occluders.values = block.carve<float>(plane_floats(l.occluders));
         l.origins.values = block.carve<float>(plane_floats(l.origins));
-        if (j <= 2) maxima[std::size_t(j & 1)] = block.carve<float>(plane_floats(l.origins));
+        if (j <= 2) s.maxima[std::size_t(j & 1)] = block.carve<float>(plane_floats(l.origins));
     }
-    float* const row = block.carve<float>(std::size_t(p.texels.texels.x) + 2);
+    s.row = block.carve<float>(std::size_t(p.texels.texels.x) + 2);
+    return s;
+}
+
+// Builds the levels from 1 on; level 0 has to be filled.
+inline void build_pyramid(const pyramid& p, bool holes, const pyramid_scratch& scratch) {
     plane mean, top;
     for (int j = 1; j < p.count; ++j) {
-        level& l = p.levels[std::size_t(j)];
+        const level& l = p.levels[std::size_t(j)];
         if (j == 1) {
-            if (p.copied)
-                copy_base(p, l.occluders, row);
-            else
-                l.occluders = {p.texels.values + p.texels.offset(0, 0), p.texels.texels, p.texels.row_step};
+            if (p.copied) copy_base(p, l.occluders, scratch.row);
             mean = top = l.occluders;
         } else {
             for (int y = 0; y < l.occluders.cells.y; ++y) {
@@ -312,7 +341,7 @@ inline void build_pyramid(pyramid& p, bool holes, scratch_block& block) {
                 for (int x = 0; x < l.occluders.cells.x; ++x) to[x] = m[x] + occluder_bias * (t[x] - m[x]);
             }
         }
-        const plane to_top{maxima[std::size_t(j & 1)], l.origins.cells, l.origins.row_step};
+        const plane to_top{scratch.maxima[std::size_t(j & 1)], l.origins.cells, l.origins.row_step};
         (holes ? halve<true> : halve<false>)(mean, top, l.ratio, l.origins, to_top);
         fill_overhang(l.origins, p.edge);
         if (j > 1 || p.copied) fill_overhang(l.occluders, p.edge);

@@ -47,18 +47,19 @@ struct crossing {
 inline constexpr float inverse_of_zero = 1e30f;  // for the surface beside the texel, whose distance is 0
 
 struct looks {
-    crossing* corners = nullptr;     // crossings at texels: the second weight is 0
+    crossing* corners = nullptr;  // crossings at texels: the second weight is 0
     crossing* crossings = nullptr;
-    look<2>* columns = nullptr;      // crossings of columns, and the surface beside the texel
+    look<2>* columns = nullptr;  // crossings of columns, and the surface beside the texel
     look<4>* insides = nullptr;
     int corner_count = 0, crossing_count = 0, column_count = 0, inside_count = 0;
+    bool beside_in_columns = true;  // the surface beside the texel is the first of the columns, else of the insides
 };
 
 // The looks of a ray, at most `most` of each kind.
 [[nodiscard]] constexpr int most_looks(int steps) { return (std::max)(steps, 4096) + 2; }
 
-// The whole and the fractional part of a place between texels. Within rounding of a texel it is that texel, since a hole
-// beside it would count otherwise.
+// The whole and the fractional part of a place between texels. Within rounding of a texel it is that texel, since a
+// hole beside it would count otherwise.
 struct place {
     std::int64_t cell;
     double part;
@@ -80,8 +81,8 @@ struct place {
 // Chooses the looks of a ray up to the distance `to`.
 //   lines_up_to: columns are looked at as well, where the ray crosses them, up to this distance
 //   between_up_to: so is the surface half way between lines, since inside a cell it may be higher than on its edges
-inline void choose_looks(const ray& r, const ground& g, edge_mode edge, double to, double lines_up_to, double between_up_to,
-                         int most, looks& out) {
+inline void choose_looks(const ray& r, const ground& g, edge_mode edge, double to, double lines_up_to,
+                         double between_up_to, bool holes, int most, looks& out) {
     out.corner_count = out.crossing_count = out.column_count = out.inside_count = 0;
     if (r.step == glm::dvec2(0.0)) return;
     const double row_step = std::abs(r.step.y), column_step = std::abs(r.step.x);
@@ -99,10 +100,19 @@ inline void choose_looks(const ray& r, const ground& g, edge_mode edge, double t
              float(1.0 / t),
              float(-r.bend * t)};
     }
-    out.columns[out.column_count++] = {{offset(across, 0), offset(0, down)},
-                                       {float(column_step), float(row_step)},
-                                       float(column_step) + float(row_step),
-                                       0.0f};
+    // The surface beside the texel. The far corner of the cell has no part in its slope, but if it is a hole, so is the
+    // cell.
+    const float beside[2] = {float(column_step), float(row_step)}, almost_nothing = 1e-12f;
+    out.columns[out.column_count++] = {
+        {offset(across, 0), offset(0, down)}, {beside[0], beside[1]}, beside[0] + beside[1], 0.0f};
+    if (holes) {
+        out.insides[out.inside_count++] = {{offset(across, 0), offset(0, down), offset(across, down), 0},
+                                           {beside[0], beside[1], almost_nothing, 0.0f},
+                                           beside[0] + beside[1],
+                                           0.0f};
+        out.column_count = 0;
+    }
+    out.beside_in_columns = !holes;
     const bool has_columns = column_step > 1e-6 * row_step && column_step < (1.0 - 1e-9) * row_step;
     for (std::int64_t n = 1; has_columns && out.column_count < most; ++n) {
         const double t = double(n) / column_step;
@@ -158,7 +168,8 @@ inline void look_around(const looks& l, const float* heights, float floor, float
         const float* from = heights + c->offset;
         for (int u = 0; u < Packs; ++u) {
             const pack below = simd::multiply_add(depth[u], simd::splat(c->inverse), simd::splat(c->bend));
-            take(u, simd::multiply_add(simd::load(from + u * simd::width), simd::splat(c->weight[0]), below), c->inverse);
+            take(u, simd::multiply_add(simd::load(from + u * simd::width), simd::splat(c->weight[0]), below),
+                 c->inverse);
         }
     }
     for (const crossing* c = l.crossings; c != l.crossings + l.crossing_count; ++c) {
@@ -177,12 +188,15 @@ inline void look_around(const looks& l, const float* heights, float floor, float
         for (int u = 0; u < Packs; ++u) {
             pack slope = simd::multiply_add(depth[u], simd::splat(c.inverse), simd::splat(c.bend));
             for (std::size_t i = 0; i < std::size(c.offset); ++i)
-                slope = simd::multiply_add(simd::load(heights + c.offset[i] + u * simd::width), simd::splat(c.weight[i]), slope);
+                slope = simd::multiply_add(simd::load(heights + c.offset[i] + u * simd::width),
+                                           simd::splat(c.weight[i]), slope);
             take(u, slope, inverse);
         }
     };
-    for (int i = 0; i < l.column_count; ++i) look_at(l.columns[i], i == 0 ? inverse_of_zero : l.columns[i].inverse);
-    for (int i = 0; i < l.inside_count; ++i) look_at(l.insides[i], l.insides[i].inverse);
+    for (int i = 0; i < l.column_count; ++i)
+        look_at(l.columns[i], i == 0 && l.beside_in_columns ? inverse_of_zero : l.columns[i].inverse);
+    for (int i = 0; i < l.inside_count; ++i)
+        look_at(l.insides[i], i == 0 && !l.beside_in_columns ? inverse_of_zero : l.insides[i].inverse);
     for (int u = 0; u < Packs; ++u) {
         simd::store(slopes + u * simd::width, best[u]);
         if constexpr (Track) simd::store(inverses + u * simd::width, best_inverse[u]);
