@@ -50,9 +50,12 @@ struct horizon_map {
     return std::size_t(extent.x) * std::size_t(extent.y) * std::size_t(bearings);
 }
 
+inline constexpr int most_steps = 65536;
+
 // What every method that bakes horizons takes besides heights, directions and output.
 struct bake_options {
-    // Cascade: how many texels of a level its steps reach; error falls and cost grows with it. Other methods ignore it.
+    // Cascade: texels that are looked at one by one, 1 to most_steps; error falls and cost grows with it. Other methods
+    // ignore it.
     int steps = 15;
     // Occluders farther than this are left out, in the unit of texel_size.
     double radius = std::numeric_limits<double>::infinity();
@@ -107,6 +110,7 @@ template <height_sample Sample>
     if (status s = check(heights); !s) return s;
     if (directions.empty()) return {error::not_positive, "bearings", 0.0};
     if (options.steps <= 0) return {error::not_positive, "steps", double(options.steps)};
+    if (options.steps > most_steps) return {error::out_of_range, "steps", double(options.steps), double(most_steps)};
     if (!(options.radius > 0.0)) return {error::not_positive, "radius", options.radius};
     if (!std::isfinite(options.curvature.x)) return {error::not_finite, "curvature.x", options.curvature.x};
     if (!std::isfinite(options.curvature.y)) return {error::not_finite, "curvature.y", options.curvature.y};

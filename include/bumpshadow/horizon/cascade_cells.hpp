@@ -1,0 +1,222 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include <glm/ext/vector_double2.hpp>
+#include <glm/ext/vector_int2.hpp>
+
+#include <bumpshadow/horizon/cascade_far.hpp>
+#include <bumpshadow/horizon/cascade_levels.hpp>
+#include <bumpshadow/horizon/cascade_near.hpp>
+#include <bumpshadow/scratch.hpp>
+#include <bumpshadow/simd.hpp>
+
+// One level above 0 of the cascade, from row to row. Part of horizon/cascade.hpp.
+namespace bumpshadow::cascade_detail {
+
+inline constexpr int strip =
+    (std::max)(256, chunk);            // columns done together, so that the rows they look at stay cached
+inline constexpr int block_rows = 64;  // texels of several levels, and the output, are done together
+
+// Where the work of an item lies; one for each item that runs at a time.
+struct slot {
+    looks near;
+    far_row* far = nullptr;
+    const float** rows = nullptr;
+    std::ptrdiff_t* lane_zero = nullptr;
+    float* ring = nullptr;
+    std::array<float*, 2> pair_values{};                               // of odd and of even levels
+    float *heights = nullptr, *slopes = nullptr, *inverses = nullptr;  // of a row of cells
+    float* parent_line = nullptr;
+    std::size_t line_floats = 0;
+    float* block = nullptr;  // rows of the transposed map, slopes and then distances
+};
+
+// The most that any direction needs at level j of whole maps.
+struct far_size {
+    int lanes = 0, rows = 0, window = 0;
+
+    [[nodiscard]] std::size_t pair_floats() const {
+        return std::size_t(lanes) * std::size_t(rows) + 4 * std::size_t(chunk);
+    }
+    [[nodiscard]] std::size_t ring_floats() const {
+        return std::size_t(ring_lanes()) * std::size_t(window) + std::size_t(chunk);
+    }
+    // The rows of cells that look at a row are as many lanes apart as rows, at the most.
+    [[nodiscard]] int ring_lanes() const { return lanes + (std::min)(window / 2 + 1, rows) + 3 * simd::width; }
+};
+[[nodiscard]] inline far_size size_far(const pyramid& p, int level, int steps) {
+    const plane& cells = p.levels[std::size_t(level)].origins;
+    far_size s;
+    s.lanes = lanes_for(cells.cells.x + 16.0) + lanes_for(0.0);
+    s.rows = cells.cells.y + 10;
+    double rows = 2.0 * steps;
+    for (int j = 1; j <= level; ++j) rows *= 0.5 * growth(j);
+    rows += 4.0;
+    s.window = level == p.count - 1 ? most_rows : int((std::min)(rows, double(most_rows)));
+    return s;
+}
+
+// The map and its transpose, with their levels: a ray needs the one in which it crosses more rows than columns.
+using frames = std::array<pyramid, 2>;
+
+// Calls array(pointer, count) for each array of a slot.
+template <class Array>
+void for_arrays(const frames& both, slot& s, int steps, Array&& array) {
+    const auto most = std::size_t(most_looks(steps));
+    array(s.near.corners, most);
+    array(s.near.crossings, most);
+    array(s.near.columns, most);
+    array(s.near.insides, most);
+    array(s.far, std::size_t(most_rows));
+    array(s.rows, std::size_t(most_rows));
+    array(s.lane_zero, std::size_t(most_rows));
+    std::size_t ring = 0, line = 2 * strip, pair_values[2] = {};
+    for (const pyramid& p : both)
+        for (int level = 1; level < p.count; ++level) {
+            const far_size size = size_far(p, level, steps);
+            ring = (std::max)(ring, size.ring_floats());
+            line = (std::max)(line, std::size_t(size.ring_lanes()));
+            std::size_t& values = pair_values[level & 1];
+            values = (std::max)(values, 2 * size.pair_floats());
+        }
+    array(s.ring, ring);
+    array(s.pair_values[0], pair_values[0]);
+    array(s.pair_values[1], pair_values[1]);
+    s.line_floats = line + 4 * std::size_t(chunk);
+    for (float** l : {&s.heights, &s.slopes, &s.inverses}) array(*l, s.line_floats);
+    array(s.parent_line, 2 * s.line_floats);
+    array(s.block, 2 * std::size_t(block_rows) * std::size_t(strip + chunk));
+}
+
+[[nodiscard]] inline double level_row_step(const pyramid& p, const ray& r, int level) {
+    return std::abs(r.step.y) * p.base.y / double(1 << (level - 1));  // rows of its occluders a unit of length
+}
+
+// Finds what the cells of a level see at distances in (from, to], from row to row.
+template <bool Holes>
+class cells_pass {
+public:
+    cells_pass(const pyramid& p, int j, const ray& r, double from, double to, const pairs* parent, const pairs& found,
+               slot& s)
+        : l_(p.levels[std::size_t(j)]),
+          edge_(p.edge),
+          down_(r.step.y > 0.0),
+          found_(found),
+          s_(s),
+          bring_{parent, {0.5, -0.25, 0.0}, 0.5, 0.5, s.parent_line, s.line_floats},
+          row_(found.at.first_row) {
+        // The n-th row on is n - 1/2 rows away, since a cell's center lies between two rows.
+        const double row_step = level_row_step(p, r, j);
+        first_ = std::int64_t(std::floor(from * row_step + 0.5 + 1e-9)) + 1;
+        // The last one is the row nearest to where looking ends, and counts as being there.
+        const bool ends = to >= r.farthest;
+        const double last_row = std::floor(to * row_step + (ends ? 1.0 : 0.5) + 1e-9);
+        const auto last = std::int64_t((std::min)(last_row, double(first_ + most_rows - 3)));
+        count_ = int((std::max)(last - first_ + 1, std::int64_t(0)));
+        for (int n = 0; n < count_; ++n) {
+            const double t = ends && first_ + n == last ? to : (double(first_ + n) - 0.5) / row_step;
+            s_.far[n] = {float(1.0 / t), float(-r.bend * t)};
+        }
+        window_ = count_ + 2;
+        const int rows_together = (std::min)(window_ / 2 + 1, found.at.rows);
+        const int drift = int(std::ceil(std::abs(found.at.tangent) * rows_together));
+        stride_ = found.at.count + (drift + 2 * simd::width) / simd::width * simd::width;
+        made_ = (std::min)(row_on(row_, 0), row_on(row_, count_ - 1));
+    }
+
+    // Goes on up to row `end`, or to the last.
+    void advance(std::int64_t end) {
+        const lattice& at = found_.at;
+        for (end = (std::min)(end, std::int64_t(at.first_row) + at.rows); row_ < end; ++row_) {
+            const std::int64_t lane = at.first_lane(row_);
+            if (count_ > 0) find_rows(lane);
+            sample_row<1>(l_.origins, edge_, row_, double(lane) + at.tangent * (double(row_) - at.middle), at.count,
+                          s_.heights);
+            look_far(s_.rows, s_.far, first_, count_, at.count, s_.heights, s_.slopes, s_.inverses);
+            keep(lane);
+        }
+    }
+
+private:
+    // Row that the cells of a row see as their n-th.
+    [[nodiscard]] std::int64_t row_on(std::int64_t row, std::int64_t n) const {
+        return down_ ? 2 * row + first_ + n : 2 * row + 1 - first_ - n;
+    }
+    // First lane of row m that any cells look at.
+    [[nodiscard]] std::int64_t first_lane_of(std::int64_t m) const {
+        const lattice& at = found_.at;
+        const std::int64_t last_row = at.first_row + at.rows - 1, last = first_ + count_ - 1;
+        const std::int64_t a = down_ ? m - last : m - 1 + first_, b = down_ ? m - first_ : m - 1 + last;
+        return (std::min)(at.first_lane(std::clamp(a >> 1, std::int64_t(at.first_row), last_row)),
+                          at.first_lane(std::clamp((b + 1) >> 1, std::int64_t(at.first_row), last_row)));
+    }
+
+    // Rows of heights on lanes are kept, in a ring, as long as a row of cells looks at them: rows made_ - window_ and
+    // on.
+    void find_rows(std::int64_t lane) {
+        const double tangent = found_.at.tangent, middle = 2.0 * found_.at.middle + 0.5;
+        const std::int64_t near = row_on(row_, 0), end = (std::max)(near, row_on(row_, count_ - 1)) + 1;
+        for (; made_ < end; ++made_) {
+            const std::int64_t first = first_lane_of(made_);
+            sample_row<2>(l_.occluders, edge_, made_, 2.0 * double(first) + 0.5 + tangent * (double(made_) - middle),
+                          stride_, s_.ring + std::ptrdiff_t(next_slot_) * stride_);
+            s_.lane_zero[next_slot_] = std::ptrdiff_t(next_slot_) * stride_ - first;
+            if (++next_slot_ == window_) next_slot_ = 0;
+        }
+        int slot_of_row = next_slot_ - int(made_ - near);
+        for (int n = 0; n < count_; ++n) {
+            if (slot_of_row < 0) slot_of_row += window_;
+            if (slot_of_row >= window_) slot_of_row -= window_;
+            s_.rows[n] = s_.ring + (s_.lane_zero[slot_of_row] + lane);
+            slot_of_row += down_ ? 1 : -1;
+        }
+    }
+
+    // What the cells have seen, or their parents where that is higher, as pairs.
+    void keep(std::int64_t lane) {
+        float* const a = found_.a + found_.offset(lane, row_);
+        float* const b = found_.b + found_.offset(lane, row_);
+        const int count = found_.at.count;
+        const auto keep_pack = [&](int i, bool have_parent, simd::pack parent_a, simd::pack parent_b) {
+            const simd::pack height = simd::load(s_.heights + i), slope = simd::load(s_.slopes + i);
+            simd::pack own_b = simd::load(s_.inverses + i);
+            simd::pack own_a = simd::multiply_add(own_b, height, slope);
+            if (have_parent) {
+                const simd::pack theirs = slope_of(parent_a, parent_b, height);
+                own_a = simd::select_greater(theirs, slope, parent_a, own_a);
+                own_b = simd::select_greater(theirs, slope, parent_b, own_b);
+            }
+            simd::store(a + i, own_a);
+            simd::store(b + i, own_b);
+        };
+        if (bring_.parent != nullptr)
+            bring_.template operator()<Holes>(lane, row_, count,
+                                              [&](int i, simd::pack pa, simd::pack pb) { keep_pack(i, true, pa, pb); });
+        else
+            for (int i = 0; i < count; i += simd::width) keep_pack(i, false, simd::splat(0.0f), simd::splat(0.0f));
+        if constexpr (Holes)
+            for (int i = 0; i < count; ++i)
+                if (s_.heights[i] < hole_limit || a[i] < hole_limit) a[i] = hole, b[i] = 0.0f;
+    }
+
+    const level& l_;
+    edge_mode edge_;
+    bool down_;
+    pairs found_;
+    slot& s_;
+    interpolation bring_;
+    std::int64_t row_;
+    std::int64_t first_ = 0;  // which row of heights is the first that is looked at
+    int count_ = 0;
+    int window_ = 0, stride_ = 0;
+    std::int64_t made_ = 0;
+    int next_slot_ = 0;
+};
+
+}  // namespace bumpshadow::cascade_detail
