@@ -31,7 +31,15 @@ inline pack splat(float a) { return pack(a); }
 inline pack subtract(pack a, pack b) { return a - b; }
 inline pack multiply(pack a, pack b) { return a * b; }
 inline pack multiply_add(pack a, pack b, pack c) { return xsimd::fma(a, b, c); }
+// GCC 12 warns of a value that AVX-512 leaves undefined on purpose.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 inline pack max(pack a, pack b) { return xsimd::max(a, b); }
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 inline pack select_greater(pack a, pack b, pack yes, pack no) { return xsimd::select(a > b, yes, no); }
 
 // Through memory: what the library calls by these names differs between its versions and targets.

@@ -40,6 +40,7 @@ struct slot {
 // The most that any direction needs at level j of whole maps.
 struct far_size {
     int lanes = 0, rows = 0, window = 0;
+    int lean = 1;  // lanes a row, rounded up: 2 where a map that tiles is resampled more along rows than across
 
     [[nodiscard]] std::size_t pair_floats() const {
         return std::size_t(lanes) * std::size_t(rows) + 4 * std::size_t(chunk);
@@ -47,14 +48,15 @@ struct far_size {
     [[nodiscard]] std::size_t ring_floats() const {
         return std::size_t(ring_lanes()) * std::size_t(window) + std::size_t(chunk);
     }
-    // The rows of cells that look at a row are as many lanes apart as rows, at the most.
-    [[nodiscard]] int ring_lanes() const { return lanes + (std::min)(window / 2 + 1, rows) + 3 * simd::width; }
+    // The rows of cells that look at a row are `lean` times as many lanes apart as rows, at the most.
+    [[nodiscard]] int ring_lanes() const { return lanes + lean * (std::min)(window / 2 + 1, rows) + 3 * simd::width; }
 };
 [[nodiscard]] inline far_size size_far(const pyramid& p, int level, int steps) {
     const plane& cells = p.levels[std::size_t(level)].origins;
     far_size s;
     s.lanes = lanes_for(cells.cells.x + 16.0) + lanes_for(0.0);
     s.rows = cells.cells.y + 10;
+    s.lean = p.base.x > p.base.y ? 2 : 1;
     double rows = 2.0 * steps;
     for (int j = 1; j <= level; ++j) rows *= 0.5 * growth(j);
     rows += 4.0;
@@ -136,8 +138,7 @@ public:
         for (end = (std::min)(end, std::int64_t(at.first_row) + at.rows); row_ < end; ++row_) {
             const std::int64_t lane = at.first_lane(row_);
             if (count_ > 0) find_rows(lane);
-            sample_row<1>(l_.origins, edge_, row_, double(lane) + at.tangent * (double(row_) - at.middle), at.count,
-                          s_.heights);
+            sample_row<1>(l_.origins, edge_, row_, lane, at.tangent * (double(row_) - at.middle), at.count, s_.heights);
             look_far(s_.rows, s_.far, first_, count_, at.count, s_.heights, s_.slopes, s_.inverses);
             keep(lane);
         }
@@ -164,8 +165,8 @@ private:
         const std::int64_t near = row_on(row_, 0), end = (std::max)(near, row_on(row_, count_ - 1)) + 1;
         for (; made_ < end; ++made_) {
             const std::int64_t first = first_lane_of(made_);
-            sample_row<2>(l_.occluders, edge_, made_, 2.0 * double(first) + 0.5 + tangent * (double(made_) - middle),
-                          stride_, s_.ring + std::ptrdiff_t(next_slot_) * stride_);
+            sample_row<2>(l_.occluders, edge_, made_, 2 * first, 0.5 + tangent * (double(made_) - middle), stride_,
+                          s_.ring + std::ptrdiff_t(next_slot_) * stride_);
             s_.lane_zero[next_slot_] = std::ptrdiff_t(next_slot_) * stride_ - first;
             if (++next_slot_ == window_) next_slot_ = 0;
         }

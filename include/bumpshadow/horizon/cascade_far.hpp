@@ -55,10 +55,11 @@ struct pairs {
     }
 };
 
-// Heights of a row of a plane at `count` lanes (a multiple of the pack width), Stride cells apart, the first at x.
-// Writes up to a pack more.
+// Heights of a row of a plane at `count` lanes (a multiple of the pack width), Stride cells apart, the first at x +
+// shift. Writes up to a pack more. Only the shift is rounded, so that a lane is the same whichever is the first.
 template <int Stride>
-inline void sample_row(const plane& p, edge_mode edge, std::int64_t y, double x, int count, float* to) {
+inline void sample_row(const plane& p, edge_mode edge, std::int64_t y, std::int64_t x, double shift, int count,
+                       float* to) {
     const std::int64_t row = resolve_edge(y, p.cells.y, edge);
     if (row < 0) {
         std::fill_n(to, count, hole);
@@ -66,7 +67,7 @@ inline void sample_row(const plane& p, edge_mode edge, std::int64_t y, double x,
     }
     const float* const cells = p.row(row);
     const std::int64_t width = p.cells.x;
-    const place at = place_of(x);
+    const place at = place_of(shift);
     const simd::pack part = simd::splat(float(at.part));
     const auto blend = [&](const float* from, int i) {
         simd::pack left, right;
@@ -81,7 +82,7 @@ inline void sample_row(const plane& p, edge_mode edge, std::int64_t y, double x,
         simd::store(to + i, simd::multiply_add(simd::subtract(right, left), part, left));
     };
     for (int i = 0; i < count;) {
-        const std::int64_t cell = at.cell + Stride * std::int64_t(i);
+        const std::int64_t cell = x + at.cell + Stride * std::int64_t(i);
         const std::int64_t begin = edge == edge_mode::repeat ? resolve_edge(cell, width, edge) : cell;
         if (begin >= 0 && begin < width) {
             // What a pack reads and writes beyond the row's last cell is done again.
@@ -106,9 +107,7 @@ struct parent_lanes {
     double constant = 0.0;
     double per_row = 0.0;
 
-    [[nodiscard]] double shift(std::int64_t lane, std::int64_t row) const {
-        return scale * double(lane) + constant + per_row * double(row);
-    }
+    [[nodiscard]] double shift(std::int64_t row) const { return constant + per_row * double(row); }
 };
 
 // Brings the parent's pairs to `count` lanes of a row.
@@ -124,37 +123,52 @@ struct interpolation {
     template <bool Holes, class Visit>
     void operator()(std::int64_t lane, std::int64_t row, int count, Visit&& visit) const {
         const double y = (double(row) - row_start) * row_scale, above = std::floor(y);
-        const double x = lanes.shift(lane, row), left = std::floor(x);
-        const std::ptrdiff_t upper = parent->offset(std::int64_t(left), std::int64_t(above));
-        const std::ptrdiff_t lower = parent->offset(std::int64_t(left), std::int64_t(above) + 1);
+        // Rounding must not depend on which lane is the first.
+        const double shift = lanes.shift(row), part = shift - std::floor(shift);
+        const int half = part < 0.5 ? 0 : 1;
+        const bool twice = !Holes && lanes.scale == 0.5;
+        const std::int64_t left = twice ? std::int64_t(std::floor(shift)) + (lane >> 1) + ((lane & 1) != 0 ? half : 0)
+                                        : place_under(lane, shift).cell;
+        const std::ptrdiff_t upper = parent->offset(left, std::int64_t(above));
+        const std::ptrdiff_t lower = parent->offset(left, std::int64_t(above) + 1);
         const float below = float(y - above);
-        const double part = x - left;
         if constexpr (Holes) {
-            with_holes(upper, lower, below, part, count, visit);
+            with_holes(upper - left, lower - left, below, lane, shift, count, visit);
             return;
         }
         const simd::pack v = simd::splat(below), w = simd::splat(1.0f - below);
         const auto blend_rows = [&](const float* from, int i) {
             return simd::multiply_add(simd::load(from + lower + i), v, simd::multiply(simd::load(from + upper + i), w));
         };
-        if (lanes.scale != 0.5)
-            stretch(blend_rows, part, count, visit);
-        else if (part < 0.5)
-            double_up<0>(blend_rows, part, count, visit);
+        const float even_part = float(part), odd_part = float(part + 0.5 - half);
+        if (!twice)
+            stretch(blend_rows, left, lane, shift, count, visit);
+        else if ((lane & 1) == 0)
+            (half == 0 ? double_up<0>(blend_rows, even_part, odd_part, count, visit)
+                       : double_up<1>(blend_rows, even_part, odd_part, count, visit));
         else
-            double_up<1>(blend_rows, part, count, visit);
+            (half == 0 ? double_up<1>(blend_rows, odd_part, even_part, count, visit)
+                       : double_up<0>(blend_rows, odd_part, even_part, count, visit));
     }
 
 private:
+    // Where a lane lies between the parent's.
+    [[nodiscard]] place place_under(std::int64_t lane, double shift) const {
+        const double x = lanes.scale * double(lane) + shift;
+        auto cell = std::int64_t(x);
+        if (x < double(cell)) --cell;
+        return {cell, x - double(cell)};
+    }
+
     [[nodiscard]] static simd::pack between(simd::pack left, simd::pack right, simd::pack part) {
         return simd::multiply_add(simd::subtract(right, left), part, left);
     }
 
-    // Two lanes to each of the parent's: lane 2 i lies `part` after parent i, and lane 2 i + 1 half a cell on, which is
-    // after parent i + Step.
+    // Two lanes to each of the parent's: lane 2 i lies `first` after parent i, and lane 2 i + 1 half a cell on, which
+    // is `second` after parent i + Step.
     template <int Step, class Blend, class Visit>
-    void double_up(const Blend& blend_rows, double part, int count, Visit& visit) const {
-        const simd::pack even_part = simd::splat(float(part)), odd_part = simd::splat(float(part + 0.5 - Step));
+    void double_up(const Blend& blend_rows, float first, float second, int count, Visit& visit) const {
+        const simd::pack even_part = simd::splat(first), odd_part = simd::splat(second);
         simd::pack a = blend_rows(parent->a, 0), b = blend_rows(parent->b, 0);
         for (int i = 0; 2 * i < count; i += simd::width) {
             const simd::pack after_a = blend_rows(parent->a, i + simd::width),
@@ -174,7 +188,8 @@ private:
     }
 
     template <class Blend, class Visit>
-    void stretch(const Blend& blend_rows, double part, int count, Visit& visit) const {
+    void stretch(const Blend& blend_rows, std::int64_t left, std::int64_t lane, double shift, int count,
+                 Visit& visit) const {
         const int wanted = int(lanes.scale * count) + 3;
         float *const line_a = line, *const line_b = line + line_floats;
         for (int i = 0; i < wanted; i += simd::width) {
@@ -185,11 +200,11 @@ private:
             float left_a[simd::width], right_a[simd::width], left_b[simd::width], right_b[simd::width],
                 parts[simd::width];
             for (int k = 0; k < simd::width; ++k) {
-                const double x = part + lanes.scale * double(i + k);
-                const int cell = int(x);
+                const place at = place_under(lane + i + k, shift);
+                const std::int64_t cell = at.cell - left;
                 left_a[k] = line_a[cell], right_a[k] = line_a[cell + 1];
                 left_b[k] = line_b[cell], right_b[k] = line_b[cell + 1];
-                parts[k] = float(x - cell);
+                parts[k] = float(at.part);
             }
             const simd::pack p = simd::load(parts);
             visit(i, between(simd::load(left_a), simd::load(right_a), p),
@@ -198,15 +213,16 @@ private:
     }
 
     // Parents that saw nothing do not take part, and where none is left nothing is seen.
+    //   upper, lower: where the parent's lane 0 lies, or would
     template <class Visit>
-    void with_holes(std::ptrdiff_t upper, std::ptrdiff_t lower, float below, double part, int count,
+    void with_holes(std::ptrdiff_t upper, std::ptrdiff_t lower, float below, std::int64_t lane, double shift, int count,
                     Visit& visit) const {
         for (int i = 0; i < count; i += simd::width) {
             float a[simd::width], b[simd::width];
             for (int k = 0; k < simd::width; ++k) {
-                const double x = part + lanes.scale * double(i + k);
-                const int cell = int(x);
-                const float right = float(x - cell);
+                const place between_lanes = place_under(lane + i + k, shift);
+                const std::int64_t cell = between_lanes.cell;
+                const float right = float(between_lanes.part);
                 float sum = 0.0f, sum_a = 0.0f, sum_b = 0.0f;
                 for (int corner = 0; corner < 4; ++corner) {
                     const std::ptrdiff_t at = (corner < 2 ? upper : lower) + cell + (corner & 1);
