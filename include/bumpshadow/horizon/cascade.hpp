@@ -92,7 +92,7 @@ template <height_sample Sample, executor Executor = serial>
     for (const glm::dvec2 d : directions) wanted[head(d, both[0].spacing).transposed ? 1 : 0] = true;
     std::array<pyramid_scratch, 2> building;
     for (std::size_t i = 0; i < 2; ++i) building[i] = carve_pyramid(both[i], block);
-    const height_range range = fill_ground(heights, both[0]);
+    const height_range range = fill_ground(heights, both[0], execute);
     execute(2, [&](std::size_t i) {
         if (!wanted[i]) return;
         if (i == 1) transpose_ground(both[0], both[1]);

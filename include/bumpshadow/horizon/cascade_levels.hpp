@@ -189,12 +189,12 @@ struct height_range {
     float highest = std::numeric_limits<float>::lowest();
 };
 
-// Copies the heights into level 0, in units of length.
+// Copies rows of the heights into level 0, in units of length.
 template <height_sample Sample>
-[[nodiscard]] height_range fill_ground(const height_map<Sample>& heights, const pyramid& p) {
+[[nodiscard]] height_range fill_rows(const height_map<Sample>& heights, const pyramid& p, int first, int end) {
     height_range range;
     const double scale = unit_height(heights) / p.unit, datum = heights.datum / p.unit;
-    for (int y = 0; y < p.texels.texels.y; ++y) {
+    for (int y = first; y < end; ++y) {
         const Sample* from = heights.samples + y * heights.row_stride;
         float* to = p.texels.values + p.texels.offset(0, y);
         float lowest = range.lowest, highest = range.highest;
@@ -218,8 +218,25 @@ template <height_sample Sample>
         range.lowest = lowest;
         range.highest = highest;
     }
-    fill_halo(p.texels, p.edge);
     return range;
+}
+
+// Copies all of them, in bands.
+template <height_sample Sample, class Executor>
+[[nodiscard]] height_range fill_ground(const height_map<Sample>& heights, const pyramid& p, Executor&& execute) {
+    std::array<height_range, 16> ranges;
+    const int rows = p.texels.texels.y,
+              bands = std::clamp(execute.concurrency(), 1, (std::min)(rows, int(ranges.size())));
+    execute(std::size_t(bands), [&](std::size_t i) {
+        const auto edge_of = [&](std::size_t band) { return int(std::int64_t(rows) * std::int64_t(band) / bands); };
+        ranges[i] = fill_rows(heights, p, edge_of(i), edge_of(i + 1));
+    });
+    for (const height_range& r : ranges) {
+        ranges[0].lowest = (std::min)(ranges[0].lowest, r.lowest);
+        ranges[0].highest = (std::max)(ranges[0].highest, r.highest);
+    }
+    fill_halo(p.texels, p.edge);
+    return ranges[0];
 }
 
 // Level 0 of the transposed map.

@@ -245,9 +245,10 @@ void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texe
     const double tangent = r.tangent() * p.base.x / p.base.y;
     glm::dvec2 first = (glm::dvec2(texels.origin) + 0.5) * p.base - 0.5;
     glm::dvec2 last = (glm::dvec2(texels.origin + texels.extent) - 0.5) * p.base - 0.5;
+    const double lean = (std::max)(std::abs(tangent), 1.0);  // columns between rows next to each other
     for (int i = 1; i <= range.top; ++i) {
-        first = {0.5 * first.x - 2.25, std::floor(0.5 * first.y - 0.25)};
-        last = {0.5 * last.x + 2.75, std::floor(0.5 * last.y - 0.25) + 1.0};
+        first = {0.5 * first.x - 1.25 - lean, std::floor(0.5 * first.y - 0.25)};
+        last = {0.5 * last.x + 1.75 + lean, std::floor(0.5 * last.y - 0.25) + 1.0};
         at[std::size_t(i)] = {
             tangent, p.middle(i), first.x, int(first.y), int(last.y - first.y) + 1, lanes_for(last.x - first.x)};
     }
