@@ -57,7 +57,7 @@ struct far_size {
     s.lanes = lanes_for(cells.cells.x + 16.0) + lanes_for(0.0);
     s.rows = cells.cells.y + 10;
     s.lean = p.base.x > p.base.y ? 2 : 1;
-    double rows = 2.0 * steps;
+    double rows = 2.0 * steps * p.base.y;
     for (int j = 1; j <= level; ++j) rows *= 0.5 * growth(j);
     rows += 4.0;
     s.window = level == p.count - 1 ? most_rows : int((std::min)(rows, double(most_rows)));

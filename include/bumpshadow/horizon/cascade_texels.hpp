@@ -246,9 +246,10 @@ void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texe
     glm::dvec2 first = (glm::dvec2(texels.origin) + 0.5) * p.base - 0.5;
     glm::dvec2 last = (glm::dvec2(texels.origin + texels.extent) - 0.5) * p.base - 0.5;
     const double lean = (std::max)(std::abs(tangent), 1.0);  // columns between rows next to each other
+    constexpr double rounding = 1e-9;  // so that no row is left out that a texel takes for the one above or below it
     for (int i = 1; i <= range.top; ++i) {
-        first = {0.5 * first.x - 1.25 - lean, std::floor(0.5 * first.y - 0.25)};
-        last = {0.5 * last.x + 1.75 + lean, std::floor(0.5 * last.y - 0.25) + 1.0};
+        first = {0.5 * first.x - 1.25 - lean, std::floor(0.5 * first.y - 0.25 - rounding)};
+        last = {0.5 * last.x + 1.75 + lean, std::floor(0.5 * last.y - 0.25 + rounding) + 1.0};
         at[std::size_t(i)] = {
             tangent, p.middle(i), first.x, int(first.y), int(last.y - first.y) + 1, lanes_for(last.x - first.x)};
     }
@@ -287,7 +288,7 @@ void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texe
             const rectangle band{{texels.origin.x, texels.origin.y + y},
                                  {texels.extent.x, (std::min)(band_rows, texels.extent.y - y)}};
             const double last_row = (band.origin.y + band.extent.y - 0.5) * p.base.y - 0.5;
-            cells.advance(std::int64_t(std::floor(0.5 * last_row - 0.25)) + 2);
+            cells.advance(std::int64_t(std::floor(0.5 * last_row - 0.25 + rounding)) + 2);
             look(band, &found);
         }
     }
