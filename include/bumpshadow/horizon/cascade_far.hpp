@@ -33,7 +33,8 @@ struct lattice {
     int count = 0;  // lanes, a multiple of the pack width
 
     [[nodiscard]] std::int64_t first_lane(std::int64_t row) const {
-        const std::int64_t lane = std::int64_t(std::floor(left - tangent * (double(row) - middle)));
+        // Fused, so that it is the same number wherever a compiler inlines this.
+        const auto lane = std::int64_t(std::floor(std::fma(-tangent, double(row) - middle, left)));
         return lane - ((lane % simd::width) + simd::width) % simd::width;
     }
 };
