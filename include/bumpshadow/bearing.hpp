@@ -201,6 +201,33 @@ template <bearing_scalar T>
     return bearing_detail::unfold(quarter, ratio);
 }
 
+// The functions by name, for settings that are chosen at run time. Octant without its phase.
+enum class bearing_function : unsigned char { exact, quintic, quadratic, octant, diamond };
+
+template <bearing_scalar T>
+[[nodiscard]] inline T to_bearing(bearing_function function, glm::vec<2, T> v) {
+    switch (function) {
+        case bearing_function::quintic: return quintic_bearing(v);
+        case bearing_function::quadratic: return quadratic_bearing(v);
+        case bearing_function::octant: return octant_bearing(v);
+        case bearing_function::diamond: return diamond_bearing(v);
+        case bearing_function::exact: break;
+    }
+    return exact_bearing(v);
+}
+
+template <bearing_scalar T>
+[[nodiscard]] inline glm::vec<2, T> to_direction(bearing_function function, T bearing) {
+    switch (function) {
+        case bearing_function::quintic: return quintic_direction(bearing);
+        case bearing_function::quadratic: return quadratic_direction(bearing);
+        case bearing_function::octant: return octant_direction(bearing);
+        case bearing_function::diamond: return diamond_direction(bearing);
+        case bearing_function::exact: break;
+    }
+    return exact_direction(bearing);
+}
+
 // Directions of evenly spaced slices: out[i] = direction(phase + i / out.size()), direction being one of the inverses
 // above (as a lambda) or any function of a bearing in double that has the symmetry of the square.
 // Where phase is a multiple of half a slice, directions that mirror each other are exact mirror images.
@@ -225,6 +252,11 @@ void fill_directions(std::span<glm::dvec2> out, double phase, const Direction& d
         const glm::dvec2 v = direction(double(offset < 0 ? -offset : offset) / double(4 * turn));
         d = bearing_detail::quarter_turns(static_cast<int>(quarter), offset < 0 ? glm::dvec2(v.x, 0.0 - v.y) : v);
     }
+}
+
+// The same for a function by name.
+inline void fill_directions(std::span<glm::dvec2> out, double phase, bearing_function function) {
+    fill_directions(out, phase, [function](double bearing) { return to_direction(function, bearing); });
 }
 
 // The same in true angles.

@@ -4,6 +4,7 @@
 
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/config.hpp>
+#include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/height_bounds.hpp>
 #include <bumpshadow/height_map.hpp>
@@ -12,6 +13,9 @@
 #include <bumpshadow/horizon/neighborhood.hpp>
 #include <bumpshadow/horizon/sweep.hpp>
 #include <bumpshadow/horizon_map.hpp>
+#include <bumpshadow/quantize.hpp>
 #include <bumpshadow/scratch.hpp>
+#include <bumpshadow/shader/shader.hpp>
 #include <bumpshadow/status.hpp>
+#include <bumpshadow/texture.hpp>
 #include <bumpshadow/version.hpp>

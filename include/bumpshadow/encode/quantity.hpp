@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <bumpshadow/status.hpp>
+
+namespace bumpshadow {
+
+// What of a horizon's elevation a texture stores. Any function that grows with the elevation serves, as long as the
+// light is compared in the same one; they differ in how well they interpolate between slices and spend their bits.
+enum class quantity : unsigned char {
+    slope,  // tangent (Forsyth)
+    sine,   // sine (Lengyel)
+    angle,  // the elevation itself
+};
+
+// The quantity with the slope that stands for 1. Horizons steeper than max_slope are stored as 1, those below 0 as 0.
+struct horizon_scale {
+    quantity stored = quantity::slope;
+    float max_slope = 4.0f;  // above 0; infinity is allowed for sine and angle: all elevations up to 90 degrees
+};
+
+[[nodiscard]] inline status check(const horizon_scale& scale) {
+    if (!(scale.max_slope > 0.0f)) return {error::not_positive, "max_slope", double(scale.max_slope)};
+    if (scale.stored == quantity::slope && !std::isfinite(scale.max_slope))
+        return {error::not_finite, "max_slope", double(scale.max_slope)};
+    return {};
+}
+
+// The quantity of a slope, not scaled. Any finite slope, and infinity.
+[[nodiscard]] inline float quantity_of_slope(quantity stored, float slope) {
+    switch (stored) {
+        case quantity::sine: {
+            // Neither the square of a large slope nor that of its inverse overflows.
+            const float s = std::abs(slope);
+            const float sine = s <= 1.0f ? s / std::sqrt(1.0f + s * s) : 1.0f / std::sqrt(1.0f + (1.0f / s) / s);
+            return slope < 0.0f ? -sine : sine;
+        }
+        case quantity::angle: return std::atan(slope);
+        case quantity::slope: break;
+    }
+    return slope;
+}
+
+// Its inverse. Sines of 1 and angles of 90 degrees are infinite slopes.
+[[nodiscard]] inline float slope_of_quantity(quantity stored, float value) {
+    switch (stored) {
+        case quantity::sine: {
+            const float cosine_square = (1.0f - value) * (1.0f + value);
+            return cosine_square > 0.0f ? value / std::sqrt(cosine_square)
+                                        : std::copysign(std::numeric_limits<float>::infinity(), value);
+        }
+        case quantity::angle:
+            return std::abs(value) < 1.57079632f ? std::tan(value)
+                                                 : std::copysign(std::numeric_limits<float>::infinity(), value);
+        case quantity::slope: break;
+    }
+    return value;
+}
+
+// Factor from the quantity to what is stored: 1 where the slope is max_slope.
+[[nodiscard]] inline float stored_scale(const horizon_scale& scale) {
+    return 1.0f / quantity_of_slope(scale.stored, scale.max_slope);
+}
+
+// Slope to stored value, clamped to [0, 1].
+[[nodiscard]] inline float to_stored(const horizon_scale& scale, float slope) {
+    const float value = quantity_of_slope(scale.stored, slope) * stored_scale(scale);
+    return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
+}
+
+}  // namespace bumpshadow

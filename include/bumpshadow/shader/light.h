@@ -1,0 +1,14 @@
+// Elevation of a light, seen from the surface, in the quantity that a texture stores. `light` points to the light in
+// tangent space, of any length whose square neither overflows nor vanishes. A light straight up gives a large finite
+// number, the zero vector 0.
+
+// Tangent of the elevation, at most 1e6 in size.
+BUMPSHADOW_FUNCTION float bumpshadow_slope(vec3 light) {
+    return clamp(light.z * inversesqrt(max(light.x * light.x + light.y * light.y, 1e-30f)), -1e6f, 1e6f);
+}
+
+// Sine of the elevation.
+BUMPSHADOW_FUNCTION float bumpshadow_sine(vec3 light) { return light.z * inversesqrt(max(dot(light, light), 1e-30f)); }
+
+// Elevation in radians.
+BUMPSHADOW_FUNCTION float bumpshadow_angle(vec3 light) { return atan(bumpshadow_slope(light)); }

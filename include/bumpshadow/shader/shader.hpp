@@ -1,0 +1,39 @@
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/ext/vector_float2.hpp>
+#include <glm/ext/vector_float3.hpp>
+#include <glm/ext/vector_float4.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+// The shader snippets as C++: the files below are the single source of what GLSL and HLSL get, so what the CPU
+// reference computes is what a GPU runs.
+namespace bumpshadow::shader {
+
+using glm::abs;
+using glm::atan;
+using glm::clamp;
+using glm::dot;
+using glm::floor;
+using glm::fract;
+using glm::inversesqrt;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::normalize;
+using glm::sqrt;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+
+#define BUMPSHADOW_FUNCTION [[nodiscard]] inline
+
+#include <bumpshadow/shader/bearing.h>
+#include <bumpshadow/shader/light.h>
+#include <bumpshadow/shader/shadow.h>
+
+#undef BUMPSHADOW_FUNCTION
+
+}  // namespace bumpshadow::shader

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <glm/ext/vector_int2.hpp>
+
+#include <bumpshadow/status.hpp>
+
+namespace bumpshadow {
+
+// What a texel, or a block of 4 x 4 texels, is made of. Numbers are little-endian and named as in Vulkan and D3D:
+// r8 is R8_UNORM, r16f R16_SFLOAT, bc1 four channels of which the fourth is 1, bc4 one unsigned channel.
+enum class texel_format : unsigned char { r8, rg8, rgba8, r16, rgba16, r16f, rgba16f, r32f, rgba32f, rgb565, bc1, bc4 };
+
+struct format_traits {
+    int channels;
+    int block;        // texels along a side of what is stored together
+    int block_bytes;  // bytes of that
+};
+
+[[nodiscard]] constexpr format_traits traits_of(texel_format format) {
+    switch (format) {
+        case texel_format::r8: return {1, 1, 1};
+        case texel_format::rg8: return {2, 1, 2};
+        case texel_format::rgba8: return {4, 1, 4};
+        case texel_format::r16: return {1, 1, 2};
+        case texel_format::rgba16: return {4, 1, 8};
+        case texel_format::r16f: return {1, 1, 2};
+        case texel_format::rgba16f: return {4, 1, 8};
+        case texel_format::r32f: return {1, 1, 4};
+        case texel_format::rgba32f: return {4, 1, 16};
+        case texel_format::rgb565: return {3, 1, 2};
+        case texel_format::bc1: return {3, 4, 8};
+        case texel_format::bc4: return {1, 4, 8};
+    }
+    return {0, 1, 0};
+}
+
+// flat: one 2D image; array: several; cube: six, in the order +x -x +y -y +z -z of GL, Vulkan and D3D;
+// volume: one 3D image.
+enum class texture_kind : unsigned char { flat, array, cube, volume };
+
+// Extent of a texture's mip level.
+[[nodiscard]] constexpr int mip_extent(int extent, int level) { return (std::max)(1, extent >> level); }
+
+// Levels of the full mip chain of an extent.
+[[nodiscard]] constexpr int full_mips(glm::ivec2 extent) {
+    int levels = 1;
+    while (((std::max)(extent.x, extent.y) >> levels) != 0) ++levels;
+    return levels;
+}
+
+// How a texture lies in memory, tightly packed, as DDS files and D3D have it: for each layer (or face), for each mip
+// level, its image; an image is [slice][row of blocks][block]. A volume has one layer, whose levels halve the depth,
+// too.
+struct texture_layout {
+    texel_format format = texel_format::r8;
+    texture_kind kind = texture_kind::flat;
+    glm::ivec2 extent{0};  // texels of level 0
+    int depth = 1;         // slices of a volume's level 0
+    int layers = 1;        // of an array; 6 for a cube
+    int mips = 1;
+
+    [[nodiscard]] constexpr glm::ivec2 level_extent(int level) const {
+        return {mip_extent(extent.x, level), mip_extent(extent.y, level)};
+    }
+    [[nodiscard]] constexpr int level_depth(int level) const { return mip_extent(depth, level); }
+    // Bytes from one row of blocks to the next.
+    [[nodiscard]] constexpr std::size_t row_bytes(int level) const {
+        const format_traits f = traits_of(format);
+        return std::size_t((level_extent(level).x + f.block - 1) / f.block) * std::size_t(f.block_bytes);
+    }
+    [[nodiscard]] constexpr std::size_t slice_bytes(int level) const {
+        const int block = traits_of(format).block;
+        return row_bytes(level) * std::size_t((level_extent(level).y + block - 1) / block);
+    }
+    [[nodiscard]] constexpr std::size_t layer_bytes() const {
+        std::size_t bytes = 0;
+        for (int level = 0; level < mips; ++level) bytes += slice_bytes(level) * std::size_t(level_depth(level));
+        return bytes;
+    }
+    [[nodiscard]] constexpr std::size_t required_size() const { return layer_bytes() * std::size_t(layers); }
+    // Bytes before slice `slice` of a level of a layer.
+    [[nodiscard]] constexpr std::size_t offset(int layer, int level, int slice = 0) const {
+        std::size_t bytes = layer_bytes() * std::size_t(layer);
+        for (int above = 0; above < level; ++above) bytes += slice_bytes(above) * std::size_t(level_depth(above));
+        return bytes + slice_bytes(level) * std::size_t(slice);
+    }
+    // Bytes for each texel of a map of extent `texels`, level 0 alone.
+    [[nodiscard]] constexpr double bytes_per_texel(glm::ivec2 texels) const {
+        return double(slice_bytes(0)) * double(depth) * double(layers) / (double(texels.x) * double(texels.y));
+    }
+};
+
+// Bytes with their layout; owns nothing. Producers write through `bytes`, readers take the const form.
+template <class Byte>
+struct basic_texture {
+    std::span<Byte> bytes = {};
+    texture_layout layout = {};
+
+    [[nodiscard]] constexpr Byte* slice(int layer, int level, int index = 0) const {
+        return bytes.data() + layout.offset(layer, level, index);
+    }
+    constexpr operator basic_texture<const std::byte>() const { return {bytes, layout}; }
+};
+using texture = basic_texture<std::byte>;
+using const_texture = basic_texture<const std::byte>;
+
+// Checks a layout, and that the bytes are enough for it.
+template <class Byte>
+[[nodiscard]] status check(const basic_texture<Byte>& t) {
+    const texture_layout& l = t.layout;
+    if (l.extent.x <= 0) return {error::not_positive, "texture extent.x", double(l.extent.x)};
+    if (l.extent.y <= 0) return {error::not_positive, "texture extent.y", double(l.extent.y)};
+    if (l.depth <= 0) return {error::not_positive, "texture depth", double(l.depth)};
+    if (l.kind != texture_kind::volume && l.depth != 1) return {error::mismatch, "texture depth", double(l.depth), 1.0};
+    if (l.layers <= 0) return {error::not_positive, "texture layers", double(l.layers)};
+    if (l.kind == texture_kind::cube && l.layers != 6)
+        return {error::mismatch, "texture layers", double(l.layers), 6.0};
+    if (l.kind == texture_kind::cube && l.extent.x != l.extent.y)
+        return {error::mismatch, "texture extent.y", double(l.extent.y), double(l.extent.x)};
+    if ((l.kind == texture_kind::flat || l.kind == texture_kind::volume) && l.layers != 1)
+        return {error::mismatch, "texture layers", double(l.layers), 1.0};
+    if (l.mips <= 0) return {error::not_positive, "texture mips", double(l.mips)};
+    const int most = full_mips({(std::max)(l.extent.x, l.depth), l.extent.y});
+    if (l.mips > most) return {error::out_of_range, "texture mips", double(l.mips), double(most)};
+    if (t.bytes.size() < l.required_size())
+        return {error::too_small, "texture size", double(t.bytes.size()), double(l.required_size())};
+    return {};
+}
+
+}  // namespace bumpshadow
