@@ -4,11 +4,13 @@
 
 // Tangent of the elevation, at most 1e6 in size.
 BUMPSHADOW_FUNCTION float bumpshadow_slope(vec3 light) {
-    return clamp(light.z * inversesqrt(max(light.x * light.x + light.y * light.y, 1e-30f)), -1e6f, 1e6f);
+    return clamp(light.z * inversesqrt(bumpshadow_square(vec2(light.x, light.y))), -1e6f, 1e6f);
 }
 
 // Sine of the elevation.
-BUMPSHADOW_FUNCTION float bumpshadow_sine(vec3 light) { return light.z * inversesqrt(max(dot(light, light), 1e-30f)); }
+BUMPSHADOW_FUNCTION float bumpshadow_sine(vec3 light) {
+    return light.z * inversesqrt(light.z * light.z + bumpshadow_square(vec2(light.x, light.y)));
+}
 
 // Elevation in radians.
 BUMPSHADOW_FUNCTION float bumpshadow_angle(vec3 light) { return atan(bumpshadow_slope(light)); }
