@@ -1,0 +1,110 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+#include <glm/ext/vector_double2.hpp>
+#include <glm/ext/vector_int2.hpp>
+
+#include <bumpshadow/encode/quantity.hpp>
+#include <bumpshadow/encode/slices.hpp>
+#include <bumpshadow/encode/stored_rows.hpp>
+#include <bumpshadow/executor.hpp>
+#include <bumpshadow/horizon_map.hpp>
+#include <bumpshadow/status.hpp>
+#include <bumpshadow/texture.hpp>
+
+// Neighboring slices in the channels of RGBA8 array layers. Likeness of the channels is what BC7 and ASTC compress:
+// hand the layers to the texture pipeline.
+
+namespace bumpshadow {
+
+enum class slice_grouping : unsigned char {
+    four,         // slices 4 l ... 4 l + 3 in layer l: two fetches; the count is a multiple of 4
+    overlapping,  // slices 3 l ... 3 l + 3 in layer l, the last one being the next layer's first: one fetch, 4/3 of the
+                  // bytes; the count is a multiple of 3
+};
+
+// Decoding: shader/slice_layers.h.
+struct slice_layers {
+    slice_set slices = {};
+    horizon_scale scale = {};
+    slice_grouping grouping = slice_grouping::four;
+};
+
+// Slices that a layer adds.
+[[nodiscard]] constexpr int slices_per_layer(slice_grouping grouping) {
+    return grouping == slice_grouping::four ? 4 : 3;
+}
+
+[[nodiscard]] inline status check(const slice_layers& encoding) {
+    if (status s = check(encoding.slices); !s) return s;
+    if (status s = check(encoding.scale); !s) return s;
+    const int each = slices_per_layer(encoding.grouping), count = encoding.slices.count;
+    if (count % each != 0)
+        return {error::mismatch, "slices (not a multiple)", double(count), double((count + each - 1) / each * each)};
+    return {};
+}
+
+[[nodiscard]] constexpr texture_layout layout_of(const slice_layers& encoding, glm::ivec2 extent, int mips = 1) {
+    return {texel_format::rgba8,
+            texture_kind::array,
+            extent,
+            1,
+            encoding.slices.count / slices_per_layer(encoding.grouping),
+            mips};
+}
+
+[[nodiscard]] constexpr int fetches(const slice_layers& encoding) {
+    return encoding.grouping == slice_grouping::four ? 2 : 1;
+}
+
+// Packs horizons in `directions` (evenly spaced ones serve best) into a texture of the layout that layout_of gives.
+//   levels: the map itself and its mips, if any, all in the same directions: those of fit_slices and make_mips, packed
+//           by points
+//   report: sums over the levels
+// Bound of |decoded - value|: 1/510. Scratch: slice_scratch_size of level 0. Errors: those of for_slice_bands, and a
+// texture of another layout.
+template <executor Executor = serial>
+[[nodiscard]] status pack_slice_layers(std::span<const horizon_map> levels, std::span<const glm::dvec2> directions,
+                                       const slice_layers& encoding, const pack_options& options, const texture& out,
+                                       Executor&& execute = {}) {
+    if (status s = check(encoding); !s) return s;
+    if (levels.empty()) return {error::missing, "levels"};
+    if (status s = check_layout(out, layout_of(encoding, levels[0].extent, int(levels.size()))); !s) return s;
+    if (status s = check_levels(levels, directions, out.layout); !s) return s;
+
+    pack_report sum, one;
+    pack_options each = options;
+    each.report = &one;
+    const int count = encoding.slices.count, step = slices_per_layer(encoding.grouping);
+    for (int level = 0; level < int(levels.size()); ++level) {
+        const horizon_map& slopes = levels[std::size_t(level)];
+        const std::size_t row_bytes = out.layout.row_bytes(level);
+        status s = for_slice_bands(slopes, directions, encoding.slices, encoding.scale, each, 1, execute,
+                                   [&](const slice_rows& band) {
+                                       for (int layer = 0; layer < out.layout.layers; ++layer) {
+                                           const int i = layer * step;
+                                           write_row_rgba8(band.row(i, 0), band.row(i + 1, 0), band.row(i + 2, 0),
+                                                           band.row((i + 3) % count, 0), slopes.extent.x,
+                                                           out.slice(layer, level) + std::size_t(band.y) * row_bytes);
+                                       }
+                                   });
+        if (!s) return s;
+        sum.clamped += one.clamped;
+        sum.steepest = (std::max)(sum.steepest, one.steepest);
+    }
+    if (options.report != nullptr) *options.report = sum;
+    return {};
+}
+
+// The same without mips.
+template <executor Executor = serial>
+[[nodiscard]] status pack_slice_layers(const horizon_map& slopes, std::span<const glm::dvec2> directions,
+                                       const slice_layers& encoding, const pack_options& options, const texture& out,
+                                       Executor&& execute = {}) {
+    return pack_slice_layers(std::span<const horizon_map>(&slopes, 1), directions, encoding, options, out, execute);
+}
+
+}  // namespace bumpshadow

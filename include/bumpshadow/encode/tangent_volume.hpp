@@ -1,0 +1,255 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include <glm/ext/vector_double2.hpp>
+#include <glm/ext/vector_int2.hpp>
+
+#include <bumpshadow/encode/bc4.hpp>
+#include <bumpshadow/encode/quantity.hpp>
+#include <bumpshadow/encode/slices.hpp>
+#include <bumpshadow/encode/stored_rows.hpp>
+#include <bumpshadow/executor.hpp>
+#include <bumpshadow/horizon_map.hpp>
+#include <bumpshadow/status.hpp>
+#include <bumpshadow/texture.hpp>
+
+// Slices of scaled horizons, one channel, that the texture unit interpolates along the bearing.
+// Source: Forsyth, Self-shadowing Bumpmap using 3D Texture Hardware, sections 3 to 5.
+
+namespace bumpshadow {
+
+// Slice i of the texture is slice i of `slices`. Decoding: shader/tangent_volume.h.
+//   volume  One fetch. Texel centers of the third coordinate stand at (i + 0.5) / count, so the coordinate of a bearing
+//           is bearing - phase + 0.5 / count, repeating. Mip levels halve the slices as well: those of a level stand
+//           where its texel centers are for the same coordinate (slices_of_level), and are fitted there.
+//   array   Two fetches. All levels have all slices, and so can have the shadows of level 0 (make_mips).
+struct tangent_volume {
+    slice_set slices = {};
+    horizon_scale scale = {};
+    texel_format format = texel_format::r8;    // r8, r16, r16f, bc4
+    texture_kind kind = texture_kind::volume;  // or array
+};
+
+[[nodiscard]] inline status check(const tangent_volume& encoding) {
+    if (status s = check(encoding.slices); !s) return s;
+    if (status s = check(encoding.scale); !s) return s;
+    const texel_format f = encoding.format;
+    if (f != texel_format::r8 && f != texel_format::r16 && f != texel_format::r16f && f != texel_format::bc4)
+        return {error::not_supported, "format", double(f)};
+    if (encoding.kind != texture_kind::volume && encoding.kind != texture_kind::array)
+        return {error::not_supported, "kind", double(encoding.kind)};
+    return {};
+}
+
+[[nodiscard]] constexpr texture_layout layout_of(const tangent_volume& encoding, glm::ivec2 extent, int mips = 1) {
+    const bool volume = encoding.kind == texture_kind::volume;
+    return {encoding.format,
+            encoding.kind,
+            extent,
+            volume ? encoding.slices.count : 1,
+            volume ? 1 : encoding.slices.count,
+            mips};
+}
+
+[[nodiscard]] constexpr int fetches(const tangent_volume& encoding) {
+    return encoding.kind == texture_kind::volume ? 1 : 2;
+}
+
+// What is added to a bearing to get the third coordinate of a volume.
+[[nodiscard]] constexpr double coordinate_offset(const tangent_volume& encoding) {
+    return 0.5 / encoding.slices.count - encoding.slices.phase;
+}
+
+// Slices of a mip level, at the bearings of its texel centers: n of them, coordinate (j + 0.5) / n.
+[[nodiscard]] constexpr slice_set slices_of_level(const tangent_volume& encoding, int level) {
+    slice_set slices = encoding.slices;
+    if (encoding.kind == texture_kind::volume) {
+        slices.count = mip_extent(encoding.slices.count, level);
+        slices.phase = 0.5 / slices.count - coordinate_offset(encoding);
+    }
+    return slices;
+}
+
+namespace tangent_volume_detail {
+
+template <class Byte>
+[[nodiscard]] Byte* slice_bytes(const basic_texture<Byte>& t, int level, int slice) {
+    const bool volume = t.layout.kind == texture_kind::volume;
+    return t.slice(volume ? 0 : slice, level, volume ? slice : 0);
+}
+
+// Writes a band of rows of all slices of a level.
+inline void write_band(const slice_rows& band, int slices, const texture& out, int level) {
+    const texel_format format = out.layout.format;
+    const std::size_t row_bytes = out.layout.row_bytes(level);
+    const int width = out.layout.level_extent(level).x;
+    for (int i = 0; i < slices; ++i) {
+        std::byte* const to = slice_bytes(out, level, i);
+        if (format == texel_format::bc4)
+            encode_block_row([&](int r) { return band.row(i, r); }, band.count, width,
+                             to + std::size_t(band.y / 4) * row_bytes, encode_bc4);
+        else
+            for (int r = 0; r < band.count; ++r)
+                write_row(format, band.row(i, r), width, to + std::size_t(band.y + r) * row_bytes);
+    }
+}
+
+// Texels x ... x + count - 1 of a row of a slice.
+inline void read_texels(const const_texture& t, int level, int slice, int x, int y, int count, float* to) {
+    const std::byte* const from = slice_bytes(t, level, slice);
+    const std::size_t row_bytes = t.layout.row_bytes(level);
+    if (t.layout.format != texel_format::bc4) {
+        read_row(t.layout.format, from + std::size_t(y) * row_bytes, x, count, to);
+        return;
+    }
+    for (int i = x; i < x + count;) {
+        float values[16];
+        decode_bc4(from + std::size_t(y / 4) * row_bytes + std::size_t(i / 4) * 8, values);
+        do {
+            to[i - x] = values[4 * (y % 4) + i % 4];
+        } while (++i < x + count && i % 4 != 0);
+    }
+}
+
+}  // namespace tangent_volume_detail
+
+// Packs horizons in `directions` (evenly spaced ones serve best) into a texture of the layout that layout_of gives.
+//   levels: the map itself and its mips, if any, all in the same directions: of an array those of fit_slices and
+//           make_mips, packed by points; of a volume made by reduce in all directions and fitted here
+//   fit: point only without mips or for an array, since the slices of a volume's mips stand elsewhere
+//   report: sums over the levels
+// Bound of |decoded - value|: 1/510 for r8, 1/131070 for r16, 2^-12 for r16f; for bc4 see encode/bc4.hpp.
+// Scratch: slice_scratch_size of level 0. Errors: those of for_slice_bands, and a texture of another layout.
+template <executor Executor = serial>
+[[nodiscard]] status pack_tangent_volume(std::span<const horizon_map> levels, std::span<const glm::dvec2> directions,
+                                         const tangent_volume& encoding, const pack_options& options,
+                                         const texture& out, Executor&& execute = {}) {
+    using namespace tangent_volume_detail;
+    if (status s = check(encoding); !s) return s;
+    if (levels.empty()) return {error::missing, "levels"};
+    if (status s = check_layout(out, layout_of(encoding, levels[0].extent, int(levels.size()))); !s) return s;
+    if (options.fit == slice_fit::point && levels.size() > 1 && encoding.kind == texture_kind::volume)
+        return {error::not_supported, "mips of a volume without a fit", double(levels.size())};
+    if (status s = check_levels(levels, directions, out.layout); !s) return s;
+    pack_report sum, one;
+    pack_options each = options;
+    each.report = &one;
+    for (int level = 0; level < int(levels.size()); ++level) {
+        const slice_set slices = slices_of_level(encoding, level);
+        status s = for_slice_bands(levels[std::size_t(level)], directions, slices, encoding.scale, each,
+                                   encoding.format == texel_format::bc4 ? 4 : 1, execute,
+                                   [&](const slice_rows& band) { write_band(band, slices.count, out, level); });
+        if (!s) return s;
+        sum.clamped += one.clamped;
+        sum.steepest = (std::max)(sum.steepest, one.steepest);
+    }
+    if (options.report != nullptr) *options.report = sum;
+    return {};
+}
+
+// The same without mips.
+template <executor Executor = serial>
+[[nodiscard]] status pack_tangent_volume(const horizon_map& slopes, std::span<const glm::dvec2> directions,
+                                         const tangent_volume& encoding, const pack_options& options,
+                                         const texture& out, Executor&& execute = {}) {
+    return pack_tangent_volume(std::span<const horizon_map>(&slopes, 1), directions, encoding, options, out, execute);
+}
+
+// Half the slices: every other one. For machines with less memory.
+[[nodiscard]] constexpr tangent_volume halved(tangent_volume encoding) {
+    encoding.slices.count /= 2;
+    return encoding;
+}
+
+// Makes the texture of halved(encoding) from that of `encoding`, while loading it; the count of slices has to be even.
+//   fit: point drops every other slice, bytes and all, but not of a volume with mips, whose slices stand elsewhere;
+//        least_squares fits half the slices to all of them
+template <executor Executor = serial>
+[[nodiscard]] status halve_slices(const const_texture& from, const tangent_volume& encoding,
+                                  const pack_options& options, const texture& out, Executor&& execute = {}) {
+    using namespace tangent_volume_detail;
+    if (status s = check(encoding); !s) return s;
+    if (encoding.slices.count % 2 != 0) return {error::not_supported, "slices (odd)", double(encoding.slices.count)};
+    const tangent_volume half = halved(encoding);
+    const texture_layout& layout = from.layout;
+    if (status s = check_layout(from, layout_of(encoding, layout.extent, layout.mips)); !s) return s;
+    if (status s = check_layout(out, layout_of(half, layout.extent, layout.mips)); !s) return s;
+    if (options.fit == slice_fit::point) {
+        if (encoding.kind == texture_kind::volume && layout.mips > 1)
+            return {error::not_supported, "mips of a volume without a fit", double(layout.mips)};
+        execute(std::size_t(half.slices.count), [&](std::size_t i) {
+            for (int level = 0; level < layout.mips; ++level)
+                std::memcpy(slice_bytes(out, level, int(i)), slice_bytes(from, level, 2 * int(i)),
+                            layout.slice_bytes(level));
+        });
+        return {};
+    }
+    pack_report none;
+    pack_options each = options;
+    each.report = &none;
+    for (int level = 0; level < layout.mips; ++level) {
+        const slice_set wide = slices_of_level(encoding, level), slices = slices_of_level(half, level);
+        const auto make_plan = [&](slice_detail::plan& p, std::span<glm::dvec2>, double* work) {
+            const auto bearing = [&](std::size_t i) { return wide.phase + double(i) / wide.count; };
+            return slice_detail::plan_fit(p, std::size_t(wide.count), bearing, work);
+        };
+        const auto source = [&](int slice, int x, int y, int count, float* to, slice_detail::lanes_seen&) {
+            read_texels(from, level, slice, x, y, count, to);
+            std::fill(to + count, to + slice_detail::padded(count), 0.0f);
+        };
+        status s = slice_detail::run(
+            {layout.level_extent(level), std::size_t(wide.count), slices, encoding.format == texel_format::bc4 ? 4 : 1},
+            each, make_plan, source, execute,
+            [&](const slice_rows& band) { write_band(band, slices.count, out, level); });
+        if (!s) return s;
+    }
+    return {};
+}
+
+// kbytes (1024) of a texture without mips.
+[[nodiscard]] constexpr double texture_kbytes(glm::ivec2 extent, int slices, double bits_a_texel) {
+    return double(extent.x) * double(extent.y) * double(slices) * bits_a_texel / 8.0 / 1024.0;
+}
+
+// A line of Forsyth's table of memory.
+struct memory_line {
+    const char* type;
+    const char* format;
+    glm::ivec2 extent;
+    int slices;
+    double kbytes;
+};
+
+// The table of his section 5, computed: what horizons cost beside the other textures of a surface. (512, 512) gives
+// the published numbers; the last four lines are a horizon map of 16 slices at full, half and quarter extent, and of 8
+// at a quarter.
+[[nodiscard]] constexpr std::array<memory_line, 8> memory_table(glm::ivec2 extent) {
+    const auto line = [](const char* type, const char* format, glm::ivec2 texels, int slices, double bits) {
+        return memory_line{type, format, texels, slices, texture_kbytes(texels, slices, bits)};
+    };
+    const auto horizons = [](glm::ivec2 texels, int slices) {
+        tangent_volume encoding;
+        encoding.slices.count = slices;
+        const double bytes = double(layout_of(encoding, texels).required_size());
+        return memory_line{"horizon map", "8bpp scalar", texels, slices, bytes / 1024.0};
+    };
+    const glm::ivec2 half{mip_extent(extent.x, 1), mip_extent(extent.y, 1)};
+    const glm::ivec2 quarter{mip_extent(extent.x, 2), mip_extent(extent.y, 2)};
+    return {line("diffuse texture", "32bpp ARGB", extent, 1, 32.0),
+            line("diffuse texture", "DXT1, 4bpp compressed", extent, 1, 4.0),
+            line("normal map", "32bpp ARGB", extent, 1, 32.0),
+            line("normal map", "8bpp indexed palette", extent, 1, 8.0),
+            horizons(extent, 16),
+            horizons(half, 16),
+            horizons(quarter, 16),
+            horizons(quarter, 8)};
+}
+
+}  // namespace bumpshadow
