@@ -24,9 +24,6 @@ void for_each_function(const Check& check) {
         "diamond", [](vec v) { return diamond_bearing(v); }, [](T b) { return diamond_direction(b); },
         diamond_max_error);
     check(
-        "quadratic", [](vec v) { return quadratic_bearing(v); }, [](T b) { return quadratic_direction(b); },
-        quadratic_max_error);
-    check(
         "cubic", [](vec v) { return cubic_bearing(v); }, [](T b) { return cubic_direction(b); }, cubic_max_error);
     check(
         "quintic", [](vec v) { return quintic_bearing(v); }, [](T b) { return quintic_direction(b); },

@@ -19,7 +19,6 @@ namespace bumpshadow {
 //   exact_bearing        rounding     division, arc tangent                  sine, cosine
 //   quintic_bearing        0.012 deg  reciprocal square root, 4 multiplies   sine, 3 Newton steps
 //   cubic_bearing          0.12 deg   reciprocal square root, 3 multiplies   sine, 3 Newton steps
-//   quadratic_bearing      0.21 deg   division, 2 multiply-adds              closed form
 //   octant_bearing         1.90 deg   division, reciprocal square root       closed form
 //   diamond_bearing        4.07 deg   2 divisions                            closed form
 //
@@ -32,7 +31,6 @@ namespace bumpshadow {
 // Degrees. Measured over all directions.
 inline constexpr double quintic_max_error = 0.01153;
 inline constexpr double cubic_max_error = 0.1221;
-inline constexpr double quadratic_max_error = 0.2144;
 inline constexpr double octant_max_error = 1.8967;
 inline constexpr double diamond_max_error = 4.0749;
 
@@ -95,8 +93,6 @@ template <bearing_scalar T>
 // Turns from an axis are nearly its sine s times a polynomial in s^2: minimax fits of asin(s) / (2 pi) that are exact
 // at 0 and at 1/8 turn (Remez exchange on the form as it is written, in double).
 template <bearing_scalar T>
-inline constexpr T quadratic_coefficient = T(0.043462260287482374);
-template <bearing_scalar T>
 inline constexpr T cubic_coefficients[2] = {T(0.15703793423093532), T(0.039477522131403084)};
 template <bearing_scalar T>
 inline constexpr T quintic_coefficients[3] = {T(0.1594458615850114), T(0.022631394397676197), T(0.024060546051149476)};
@@ -129,14 +125,6 @@ template <bearing_scalar T, int N>
         s -= (odd_polynomial(c, s) - offset) / derivative;
     }
     return quarter_turns(quarter, glm::vec<2, T>(std::sqrt((T(1) - s) * (T(1) + s)), s));
-}
-
-// Solves for the ratio; offset in [-1/8, 1/8].
-template <bearing_scalar T>
-[[nodiscard]] inline T quadratic_ratio(T offset) {
-    constexpr T k = quadratic_coefficient<T>;
-    constexpr T b = T(0.125) + k;
-    return T(2) * offset / (b + std::sqrt(b * b - T(4) * k * std::abs(offset)));
 }
 
 }  // namespace bearing_detail
@@ -191,20 +179,6 @@ template <bearing_scalar T>
     return bearing_detail::unfold(quarter, T(4) * offset / (T(1) - T(4) * std::abs(offset)));
 }
 
-// a (1/8 + c (1 - |a|)), a being the ratio of the components: a ninth of the octant's error for less work.
-template <bearing_scalar T>
-[[nodiscard]] inline T quadratic_bearing(glm::vec<2, T> v) {
-    const auto [axis, ratio] = bearing_detail::fold(v);
-    const T correction = bearing_detail::quadratic_coefficient<T> * (T(1) - std::abs(ratio));
-    return bearing_detail::wrap_bearing(axis + ratio * (T(0.125) + correction));
-}
-
-template <bearing_scalar T>
-[[nodiscard]] inline glm::vec<2, T> quadratic_direction(T bearing) {
-    const auto [quarter, offset] = bearing_detail::split(bearing);
-    return bearing_detail::unfold(quarter, bearing_detail::quadratic_ratio(offset));
-}
-
 // s (c0 + c1 s^2), s being the sine of the angle from the nearest axis. Where a shader has 1 / |v| anyway, for the
 // slope of the light, it costs less than the octant and has a fifteenth of its error.
 template <bearing_scalar T>
@@ -229,14 +203,13 @@ template <bearing_scalar T>
 }
 
 // The functions by name, for settings that are chosen at run time. Octant without its phase.
-enum class bearing_function : unsigned char { exact, quintic, cubic, quadratic, octant, diamond };
+enum class bearing_function : unsigned char { exact, quintic, cubic, octant, diamond };
 
 template <bearing_scalar T>
 [[nodiscard]] inline T to_bearing(bearing_function function, glm::vec<2, T> v) {
     switch (function) {
         case bearing_function::quintic: return quintic_bearing(v);
         case bearing_function::cubic: return cubic_bearing(v);
-        case bearing_function::quadratic: return quadratic_bearing(v);
         case bearing_function::octant: return octant_bearing(v);
         case bearing_function::diamond: return diamond_bearing(v);
         case bearing_function::exact: break;
@@ -249,7 +222,6 @@ template <bearing_scalar T>
     switch (function) {
         case bearing_function::quintic: return quintic_direction(bearing);
         case bearing_function::cubic: return cubic_direction(bearing);
-        case bearing_function::quadratic: return quadratic_direction(bearing);
         case bearing_function::octant: return octant_direction(bearing);
         case bearing_function::diamond: return diamond_direction(bearing);
         case bearing_function::exact: break;

@@ -37,7 +37,6 @@ TEST_CASE("shader bearings are those that the slices are baked for") {
         };
         compare(0, shader::bumpshadow_bearing_exact(v), bearing_function::exact);
         compare(1, shader::bumpshadow_bearing_quintic(v), bearing_function::quintic);
-        compare(2, shader::bumpshadow_bearing_quadratic(v), bearing_function::quadratic);
         compare(3, shader::bumpshadow_bearing_octant(v), bearing_function::octant);
         compare(4, shader::bumpshadow_bearing_diamond(v), bearing_function::diamond);
         compare(5, shader::bumpshadow_bearing_cubic(v), bearing_function::cubic);
@@ -46,7 +45,6 @@ TEST_CASE("shader bearings are those that the slices are baked for") {
     for (const float zero : {0.0f, -0.0f}) {
         CHECK(shader::bumpshadow_bearing_exact(vec2(zero, zero)) == 0.0f);
         CHECK(shader::bumpshadow_bearing_quintic(vec2(zero, zero)) == 0.0f);
-        CHECK(shader::bumpshadow_bearing_quadratic(vec2(zero, zero)) == 0.0f);
         CHECK(shader::bumpshadow_bearing_cubic(vec2(zero, zero)) == 0.0f);
         CHECK(shader::bumpshadow_bearing_octant(vec2(zero, zero)) == 0.0f);
         CHECK(shader::bumpshadow_bearing_diamond(vec2(zero, zero)) == 0.0f);
@@ -61,7 +59,7 @@ TEST_CASE("shader elevation of a light") {
         CHECK(shader::bumpshadow_angle(thirty * length) == doctest::Approx(std::numbers::pi / 6.0));
     }
     CHECK(shader::bumpshadow_slope(vec3(3.0f, 4.0f, -5.0f)) == doctest::Approx(-1.0));
-    CHECK(shader::bumpshadow_slope(vec3(0.0f, 0.0f, 1.0f)) == 1e6f);
+    CHECK(shader::bumpshadow_slope(vec3(0.0f, 0.0f, 1.0f)) == doctest::Approx(1e15));
     CHECK(shader::bumpshadow_sine(vec3(0.0f, 0.0f, 2.0f)) == doctest::Approx(1.0));
     CHECK(shader::bumpshadow_slope(vec3(0.0f, 0.0f, 0.0f)) == 0.0f);
     CHECK(shader::bumpshadow_sine(vec3(0.0f, 0.0f, 0.0f)) == 0.0f);

@@ -2,9 +2,9 @@
 // tangent space, of any length whose square neither overflows nor vanishes. A light straight up gives a large finite
 // number, the zero vector 0.
 
-// Tangent of the elevation, at most 1e6 in size.
+// Tangent of the elevation, at most 1e15 light.z in size.
 BUMPSHADOW_FUNCTION float bumpshadow_slope(vec3 light) {
-    return clamp(light.z * inversesqrt(bumpshadow_square(vec2(light.x, light.y))), -1e6f, 1e6f);
+    return light.z * inversesqrt(bumpshadow_square(vec2(light.x, light.y)));
 }
 
 // Sine of the elevation.

@@ -31,8 +31,17 @@ using glm::vec4;
 #define BUMPSHADOW_FUNCTION [[nodiscard]] inline
 
 #include <bumpshadow/shader/bearing.h>
+#include <bumpshadow/shader/emboss.h>
+#include <bumpshadow/shader/factors.h>
+#include <bumpshadow/shader/fourier.h>
 #include <bumpshadow/shader/light.h>
+#include <bumpshadow/shader/normal.h>
 #include <bumpshadow/shader/shadow.h>
+#include <bumpshadow/shader/sine_layers.h>
+#include <bumpshadow/shader/slice_layers.h>
+#include <bumpshadow/shader/ssbump.h>
+#include <bumpshadow/shader/tangent_volume.h>
+#include <bumpshadow/shader/vertex.h>
 
 #undef BUMPSHADOW_FUNCTION
 

@@ -1,14 +1,24 @@
-// Shadow factor: 0 in shadow, 1 in light. `light` and `horizon` in the quantity that the texture stores, over what
-// stands for 1 there; the edge of the shadow is 1 / k wide in it. A light below the surface (light < 0) gives 0, and
-// one exactly on the horizon is lit (hard, c = 1) or half lit (c = 0.5).
+// Shadow factor: 0 in shadow, 1 in light. `light` and `horizon` in the quantity that the texture stores, both over what
+// stands for 1 there or both as they are; the edge of the shadow is 1 / k wide in it. A light below the surface
+// (light < 0) gives 0, and one exactly on the horizon is lit (hard, c = 1) or half lit (c = 0.5).
 
 // No soft edge: the limit of large k.
 BUMPSHADOW_FUNCTION float bumpshadow_shadow_hard(float light, float horizon) {
     return light >= max(horizon, 0.0f) ? 1.0f : 0.0f;
 }
 
+// The next function for a light that is never below the surface, or does not shine there anyway.
+BUMPSHADOW_FUNCTION float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
+    return clamp(min(k, 1e30f) * (light - horizon) + c, 0.0f, 1.0f);
+}
+
 // clamp(k (light - horizon) + c, 0, 1). c = 1: the edge lies inside the shadow (Lengyel 2019, equation 5.4); c = 0.5:
 // it is centered. k from 0 to infinity.
 BUMPSHADOW_FUNCTION float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
-    return light >= 0.0f ? clamp(min(k, 1e30f) * (light - horizon) + c, 0.0f, 1.0f) : 0.0f;
+    return light >= 0.0f ? bumpshadow_shadow_soft_above(light, horizon, k, c) : 0.0f;
+}
+
+// Shadows that end with distance: the factor up to `start`, 1 from `end` on.
+BUMPSHADOW_FUNCTION float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
+    return mix(factor, 1.0f, clamp((distance - start) / max(end - start, 1e-30f), 0.0f, 1.0f));
 }

@@ -1,0 +1,367 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+
+#include <glm/common.hpp>
+#include <glm/ext/vector_float2.hpp>
+#include <glm/ext/vector_float3.hpp>
+#include <glm/ext/vector_int2.hpp>
+#include <glm/geometric.hpp>
+
+#include <bumpshadow/bearing.hpp>
+#include <bumpshadow/encode/emboss.hpp>
+#include <bumpshadow/encode/fourier.hpp>
+#include <bumpshadow/encode/quantity.hpp>
+#include <bumpshadow/encode/sine_layers.hpp>
+#include <bumpshadow/encode/slice_layers.hpp>
+#include <bumpshadow/encode/slices.hpp>
+#include <bumpshadow/encode/ssbump.hpp>
+#include <bumpshadow/encode/tangent_volume.hpp>
+#include <bumpshadow/factor_cube.hpp>
+#include <bumpshadow/normal_map.hpp>
+#include <bumpshadow/reference/sampler.hpp>
+#include <bumpshadow/reference/shadow_edge.hpp>
+#include <bumpshadow/shader/shader.hpp>
+#include <bumpshadow/texture.hpp>
+
+// From textures to shadow factors, by the shader snippets and the sampler: what a GPU computes for one light at one
+// texture coordinate.
+//
+//   horizon(encoding, textures, how, uv, light, level)   in the quantity that is stored, over what stands for 1
+//   light_level(encoding, light)                         elevation of the light, in the same
+//   shadow_factor(encoding, textures, how, uv, light, edge, level)
+//
+// `light` points to the light in tangent space. horizon and light_level take directions whose squares neither overflow
+// nor vanish, as the snippets do; shadow_factor takes any:
+//   any length           the direction counts, from denormal to the largest
+//   below the surface    0, whatever the horizon
+//   on the horizon       lit, with a hard edge or c = 1; half lit with c = 0.5
+//   straight up          1, with c = 0.5 unless the stored horizon comes within 0.5 / k of the zenith
+//   the zero vector      as one in the surface, towards +x
+//   NaN or infinite      0
+// Textures have to pass check() and to have the layout of the encoding. The result is finite and in [0, 1]; ssbump and
+// emboss give brightness instead.
+
+namespace bumpshadow {
+
+namespace shadow_detail {
+
+[[nodiscard]] inline float bearing_of(bearing_function function, glm::vec2 v) {
+    switch (function) {
+        case bearing_function::quintic: return shader::bumpshadow_bearing_quintic(v);
+        case bearing_function::cubic: return shader::bumpshadow_bearing_cubic(v);
+        case bearing_function::octant: return shader::bumpshadow_bearing_octant(v);
+        case bearing_function::diamond: return shader::bumpshadow_bearing_diamond(v);
+        case bearing_function::exact: break;
+    }
+    return shader::bumpshadow_bearing_exact(v);
+}
+
+[[nodiscard]] inline float level_of(const horizon_scale& scale, glm::vec3 light) {
+    const float factor = stored_scale(scale);
+    switch (scale.stored) {
+        case quantity::sine: return factor * shader::bumpshadow_sine(light);
+        case quantity::angle: return factor * shader::bumpshadow_angle(light);
+        case quantity::slope: break;
+    }
+    return factor * shader::bumpshadow_slope(light);
+}
+
+// As a GPU rounds and clamps the layer of an array.
+[[nodiscard]] inline int layer_of(const const_texture& t, float layer) {
+    return (std::clamp)(static_cast<int>(layer + 0.5f), 0, t.layout.layers - 1);
+}
+
+}  // namespace shadow_detail
+
+// ---- Tangent volume: Forsyth ----
+
+[[nodiscard]] inline float light_level(const tangent_volume& encoding, glm::vec3 light) {
+    return shadow_detail::level_of(encoding.scale, light);
+}
+
+// From a bearing as the encoding's function measures it, e.g. an interpolated one.
+[[nodiscard]] inline float horizon_at(const tangent_volume& encoding, const const_texture& from, sampler how,
+                                      glm::vec2 uv, float bearing, float level = 0.0f) {
+    if (encoding.kind == texture_kind::volume) {
+        how.z = address_mode::repeat;
+        const float w = shader::bumpshadow_volume_coordinate(bearing, static_cast<float>(coordinate_offset(encoding)));
+        return sample_volume(from, how, {uv.x, uv.y, w}, level).x;
+    }
+    const glm::vec3 layers = shader::bumpshadow_tangent_layers(bearing, static_cast<float>(encoding.slices.phase),
+                                                               static_cast<float>(encoding.slices.count));
+    return shader::bumpshadow_tangent_horizon(sample(from, how, uv, level, shadow_detail::layer_of(from, layers.x)).x,
+                                              sample(from, how, uv, level, shadow_detail::layer_of(from, layers.y)).x,
+                                              layers.z);
+}
+
+[[nodiscard]] inline float horizon(const tangent_volume& encoding, const const_texture& from, const sampler& how,
+                                   glm::vec2 uv, glm::vec3 light, float level = 0.0f) {
+    const float bearing = shadow_detail::bearing_of(encoding.slices.function, {light.x, light.y});
+    return horizon_at(encoding, from, how, uv, bearing, level);
+}
+
+// ---- Slice layers ----
+
+[[nodiscard]] inline float light_level(const slice_layers& encoding, glm::vec3 light) {
+    return shadow_detail::level_of(encoding.scale, light);
+}
+
+[[nodiscard]] inline float horizon_at(const slice_layers& encoding, const const_texture& from, const sampler& how,
+                                      glm::vec2 uv, float bearing, float level = 0.0f) {
+    const float layers = static_cast<float>(from.layout.layers);
+    const float position = shader::bumpshadow_slice_position(bearing, static_cast<float>(encoding.slices.phase),
+                                                             static_cast<float>(encoding.slices.count));
+    const auto layer = [&](float number) {
+        return sample(from, how, uv, level, shadow_detail::layer_of(from, number));
+    };
+    if (encoding.grouping == slice_grouping::overlapping) {
+        const glm::vec2 place = shader::bumpshadow_overlapping_layer(position);
+        return shader::bumpshadow_overlapping_horizon(layer(place.x), place.y);
+    }
+    const glm::vec3 place = shader::bumpshadow_grouped_layers(position, layers);
+    return shader::bumpshadow_grouped_horizon(layer(place.x), layer(place.y).x, place.z);
+}
+
+[[nodiscard]] inline float horizon(const slice_layers& encoding, const const_texture& from, const sampler& how,
+                                   glm::vec2 uv, glm::vec3 light, float level = 0.0f) {
+    const float bearing = shadow_detail::bearing_of(encoding.slices.function, {light.x, light.y});
+    return horizon_at(encoding, from, how, uv, bearing, level);
+}
+
+// ---- Sine layers: Lengyel ----
+
+// Where an encoding has two textures in place of an array.
+struct two_textures {
+    const_texture first, second;
+};
+
+// The textures of sine layers, and the cube that their factors come from.
+template <class Textures>
+struct with_factor_cube {
+    Textures maps;
+    const_texture cube;
+    factor_form form = factor_form::biased;
+};
+
+namespace shadow_detail {
+
+struct two_texels {
+    glm::vec4 first, second;
+};
+[[nodiscard]] inline two_texels both(const const_texture& from, const sampler& how, glm::vec2 uv, float level) {
+    return {sample(from, how, uv, level, 0), sample(from, how, uv, level, 1)};
+}
+[[nodiscard]] inline two_texels both(const two_textures& from, const sampler& how, glm::vec2 uv, float level) {
+    return {sample(from.first, how, uv, level), sample(from.second, how, uv, level)};
+}
+
+}  // namespace shadow_detail
+
+[[nodiscard]] inline float light_level(const sine_layers& encoding, glm::vec3 light) {
+    return shadow_detail::level_of(encoding.scale, light);
+}
+
+// Textures: a const_texture of two layers, or two_textures; factors are computed.
+template <class Textures>
+[[nodiscard]] float horizon(const sine_layers&, const Textures& from, const sampler& how, glm::vec2 uv, glm::vec3 light,
+                            float level = 0.0f) {
+    const auto [first, second] = shadow_detail::both(from, how, uv, level);
+    return shader::bumpshadow_sine_layers(first, second, {light.x, light.y});
+}
+
+// Factors from the cube, filtered with the sampler's weights.
+template <class Textures>
+[[nodiscard]] float horizon(const sine_layers&, const with_factor_cube<Textures>& from, const sampler& how,
+                            glm::vec2 uv, glm::vec3 light, float level = 0.0f) {
+    const auto [first, second] = shadow_detail::both(from.maps, how, uv, level);
+    const glm::vec4 texel = sample_cube(from.cube, {.weights = how.weights}, light);
+    return shader::bumpshadow_sine_layers_factors(first, second,
+                                                  from.form == factor_form::published
+                                                      ? shader::bumpshadow_factors_published_cube(texel)
+                                                      : shader::bumpshadow_factors_biased_cube(texel));
+}
+
+// ---- Fourier: radial horizon maps ----
+
+// The textures with what decoding takes; the first texture_count(encoding) count.
+struct fourier_textures {
+    std::array<const_texture, 3> maps;
+    fourier_decoding decoding;  // decoding_of(encoding)
+};
+
+[[nodiscard]] inline float light_level(const fourier& encoding, glm::vec3 light) {
+    return shadow_detail::level_of(encoding.scale, light);
+}
+
+[[nodiscard]] inline float horizon(const fourier& encoding, const fourier_textures& from, const sampler& how,
+                                   glm::vec2 uv, glm::vec3 light, float level = 0.0f) {
+    const fourier_decoding& d = from.decoding;
+    const auto four = [&](std::size_t i) {
+        const glm::vec4 texel = sample(from.maps[i], how, uv, level);
+        return encoding.square_root ? shader::bumpshadow_fourier_root_texel(texel, d.scale[i], d.offset[i])
+                                    : shader::bumpshadow_fourier_texel(texel, d.scale[i], d.offset[i]);
+    };
+    const auto constant = [&](std::size_t i) {
+        const float texel = sample(from.maps[i], how, uv, level).x;
+        return encoding.square_root
+                   ? shader::bumpshadow_fourier_root_constant(texel, d.constant_scale, d.constant_offset)
+                   : texel * d.constant_scale + d.constant_offset;
+    };
+    const glm::vec2 direction = shader::bumpshadow_fourier_direction({light.x, light.y});
+    switch (encoding.coefficients) {
+        case 3: return shader::bumpshadow_fourier_3(glm::vec3(four(0)), direction);
+        case 5: return shader::bumpshadow_fourier_5(four(0), constant(1), direction);
+        case 7: return shader::bumpshadow_fourier_7(four(0), glm::vec3(four(1)), direction);
+        default: return shader::bumpshadow_fourier_9(four(0), four(1), constant(2), direction);
+    }
+}
+
+// ---- Traced ----
+
+// Horizons baked in the light's own bearing, by bake_exact for instance: a flat r32f texture of slopes, the one slice
+// of a horizon_map. They are compared as `scale` says, without its limit.
+struct traced {
+    horizon_scale scale;
+};
+
+[[nodiscard]] constexpr texture_layout layout_of(const traced&, glm::ivec2 extent) {
+    return {.format = texel_format::r32f, .extent = extent};
+}
+[[nodiscard]] inline float light_level(const traced& encoding, glm::vec3 light) {
+    return shadow_detail::level_of(encoding.scale, light);
+}
+[[nodiscard]] inline float horizon(const traced& encoding, const const_texture& from, const sampler& how, glm::vec2 uv,
+                                   glm::vec3, float level = 0.0f) {
+    const float slope = sample(from, how, uv, level).x;
+    return slope > 0.0f ? quantity_of_slope(encoding.scale.stored, slope) * stored_scale(encoding.scale) : 0.0f;
+}
+
+// ---- The factor ----
+
+template <class Encoding, class Textures>
+[[nodiscard]] float shadow_factor(const Encoding& encoding, const Textures& textures, const sampler& how, glm::vec2 uv,
+                                  glm::vec3 light, const shadow_edge& edge = {}, float level = 0.0f) {
+    if (!is_finite(light)) return 0.0f;
+    const glm::vec3 direction = shadow_detail::scaled(light);
+    if (direction.z < 0.0f) return 0.0f;
+    return shadow_detail::edge_factor(light_level(encoding, direction),
+                                      horizon(encoding, textures, how, uv, direction, level), edge);
+}
+
+// Brightness in place of a shadow factor and of the cosine between normal and light, in [0, 1].
+[[nodiscard]] inline float shadow_factor(const ssbump& encoding, const const_texture& from, const sampler& how,
+                                         glm::vec2 uv, glm::vec3 light, const shadow_edge& = {}, float level = 0.0f) {
+    if (!is_finite(light)) return 0.0f;
+    const glm::vec3 direction = shadow_detail::scaled(light);
+    if (direction.z < 0.0f || direction == glm::vec3(0.0f)) return 0.0f;
+    glm::vec3 masks = glm::vec3(sample(from, how, uv, level)) / mask_scale(encoding);
+    if (encoding.y == normal_y::up) masks = shader::bumpshadow_ssbump_other_hand(masks);
+    const float brightness = shader::bumpshadow_ssbump_light(
+        masks, shader::bumpshadow_ssbump_weights(direction * (1.0f / glm::length(direction))));
+    return glm::clamp(brightness, 0.0f, 1.0f);
+}
+
+// The height texture of embossing, and the shift of a light at the horizon in texture coordinates.
+struct emboss_texture {
+    const_texture heights;
+    glm::vec2 amount{0.0f};
+};
+
+// What the base texture is multiplied by, 0 to 2: 256/255 where the surface is flat, more where it faces the light.
+[[nodiscard]] inline float shadow_factor(const emboss&, const emboss_texture& from, const sampler& how, glm::vec2 uv,
+                                         glm::vec3 light, const shadow_edge& = {}, float level = 0.0f) {
+    if (!is_finite(light)) return 0.0f;
+    const glm::vec3 direction = shadow_detail::scaled(light);
+    if (direction.z < 0.0f) return 0.0f;
+    const glm::vec2 shift = shader::bumpshadow_emboss_shift(direction, from.amount);
+    const float inverse = shader::bumpshadow_emboss_inverse(sample(from.heights, how, uv + shift, level).x);
+    return 2.0f * shader::bumpshadow_emboss_relief(sample(from.heights, how, uv, level).x, inverse);
+}
+
+namespace shadow_detail {
+
+// Texels first.x ... of a row, of an 8-bit tangent volume whose texels are the pixels: slices are blended with the same
+// weights all along it.
+inline void volume_row(const tangent_volume& encoding, const const_texture& from, const sampler& how, glm::ivec2 first,
+                       int count, glm::vec3 light, const shadow_edge& edge, float* factors) {
+    const float bearing = bearing_of(encoding.slices.function, {light.x, light.y});
+    int slice, next;
+    float part;
+    if (encoding.kind == texture_kind::volume) {
+        const float w = shader::bumpshadow_volume_coordinate(bearing, static_cast<float>(coordinate_offset(encoding)));
+        const auto tap = sampler_detail::linear_tap(w, encoding.slices.count, address_mode::repeat, how.weights);
+        slice = tap.first, next = tap.second, part = tap.weight;
+    } else {
+        const glm::vec3 layers = shader::bumpshadow_tangent_layers(bearing, static_cast<float>(encoding.slices.phase),
+                                                                   static_cast<float>(encoding.slices.count));
+        slice = layer_of(from, layers.x), next = layer_of(from, layers.y), part = layers.z;
+    }
+    const std::size_t at = std::size_t(first.y) * from.layout.row_bytes(0) + std::size_t(first.x);
+    const auto* const a =
+        reinterpret_cast<const unsigned char*>(tangent_volume_detail::slice_bytes(from, 0, slice) + at);
+    const auto* const b =
+        reinterpret_cast<const unsigned char*>(tangent_volume_detail::slice_bytes(from, 0, next) + at);
+    const float elevation = level_of(encoding.scale, light);
+    const float to_a = (1.0f - part) / 255.0f, to_b = part / 255.0f, k = edge.k, c = edge.c;
+    // Blocks of known size in a local array are vectorized even at -O2; bytes may alias anything.
+    constexpr int block = 16;
+    for (int x = 0; x < count; x += block) {
+        const int left = (std::min)(block, count - x);
+        float values[block] = {};
+        if (left == block)
+            for (int i = 0; i < block; ++i) values[i] = float(a[x + i]) * to_a + float(b[x + i]) * to_b;
+        else
+            for (int i = 0; i < left; ++i) values[i] = float(a[x + i]) * to_a + float(b[x + i]) * to_b;
+        if (std::isinf(k))
+            for (float& v : values) v = shader::bumpshadow_shadow_hard(elevation, v);
+        else
+            for (float& v : values) v = shader::bumpshadow_shadow_soft(elevation, v, k, c);
+        std::copy(values, values + left, factors + x);
+    }
+}
+
+}  // namespace shadow_detail
+
+// A shadow for shade.hpp.
+//   edge    shape of the shadow's edge
+//   radius  degrees; above 0, k is that of edge_for() at each pixel's own elevation of the light: for near lights, and
+//   for
+//           curved surfaces
+template <class Encoding, class Textures = const_texture>
+struct encoded_shadow {
+    Encoding encoding;
+    Textures textures;
+    sampler how = {};
+    shadow_edge edge = {};
+    double radius = 0.0;
+    float level = 0.0f;
+
+    static constexpr bool shades = std::is_same_v<Encoding, ssbump> || std::is_same_v<Encoding, emboss>;
+
+    [[nodiscard]] shadow_edge edge_at(glm::vec3 light) const {
+        if constexpr (!shades)
+            if (radius > 0.0) return edge_for(radius, encoding.scale, elevation_of(light), edge.c);
+        return edge;
+    }
+    [[nodiscard]] float operator()(glm::vec2 uv, glm::vec3 light) const {
+        return shadow_factor(encoding, textures, how, uv, light, edge_at(light), level);
+    }
+    [[nodiscard]] bool row(glm::ivec2 extent, glm::ivec2 first, int count, glm::vec3 light,
+                           float* factors) const requires std::is_same_v<Encoding, tangent_volume> {
+        if (textures.layout.format != texel_format::r8 || textures.layout.extent != extent || level != 0.0f ||
+            how.texels != filter_mode::linear)
+            return false;
+        if (!is_finite(light) || light.z < 0.0f)
+            std::fill(factors, factors + count, 0.0f);
+        else
+            shadow_detail::volume_row(encoding, textures, how, first, count, light, edge_at(light), factors);
+        return true;
+    }
+};
+
+}  // namespace bumpshadow

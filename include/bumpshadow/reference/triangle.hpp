@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+
+#include <glm/ext/vector_float2.hpp>
+#include <glm/ext/vector_float3.hpp>
+#include <glm/geometric.hpp>
+
+#include <bumpshadow/encode/quantity.hpp>
+#include <bumpshadow/reference/shadow.hpp>
+#include <bumpshadow/reference/shadow_edge.hpp>
+#include <bumpshadow/shader/shader.hpp>
+
+// Shadows where the light is computed at the vertices of a triangle and interpolated over it (shader/vertex.h).
+//
+// Points of a triangle that are lit or shadowed wrongly, in percent, by the length of its edges over the height of a
+// point light; 16 slices of a map of stones, hard edge, most = 4:
+//
+//                        middle at 45 degrees         light above a vertex         light above the middle
+//   edge               0.1    0.2   0.5    1    2     0.2   0.5    1     2         0.2   0.5    1     2
+//   raw_bearing        0.28   0.57  1.5   3.9  9.8    0     2.1   5.9  11.8        0     0.7   7.3  14.4
+//   bearing            0.04   0.08  0.4   1.7  6.5    0     1.6   4.0   9.6        0     0.6   7.1  14.3
+//   direction          0.03   0.10  0.4   1.7  5.7    0     1.3   1.5   7.8        0     0.6   6.5  12.1
+//   light              0      0     0     0    0      0     0     0     0          0     0     0     0
+
+namespace bumpshadow {
+
+// What is interpolated.
+enum class interpolant : unsigned char {
+    raw_bearing,  // bearing and slope as they are: wrong in triangles that cross the seam
+    bearing,      // bearing and slope, the bearings unwrapped: Forsyth, with the wrap mode of Direct3D
+    direction,    // unit direction in the surface, and slope; the bearing a pixel
+    light,        // the light itself; bearing and slope a pixel
+};
+
+// A light as a pixel looks it up.
+struct pixel_light {
+    float bearing = 0.0f;  // as the encoding's function measures it; any number of turns
+    float slope = 0.0f;
+};
+
+// lights: at the vertices, in tangent space, of lengths whose squares neither overflow nor vanish; for `light` they
+// have
+//   to be vectors to the light in one unit
+// weights: the pixel's barycentric coordinates
+// most: where slopes are cut before they are interpolated; above the steepest horizon
+[[nodiscard]] inline pixel_light interpolate_light(const std::array<glm::vec3, 3>& lights, glm::vec3 weights,
+                                                   interpolant what, bearing_function function, float most) {
+    using namespace shader;
+    glm::vec3 bearings(0.0f), slopes(0.0f), sum(0.0f);
+    for (int i = 0; i < 3; ++i) {
+        const glm::vec3 light = lights[std::size_t(i)];
+        bearings[i] = shadow_detail::bearing_of(function, {light.x, light.y});
+        slopes[i] = bumpshadow_vertex_slope(light, most);
+        sum += weights[i] * (what == interpolant::direction ? bumpshadow_vertex_direction(light, most) : light);
+    }
+    const glm::vec2 along(sum.x, sum.y);
+    switch (what) {
+        case interpolant::bearing: bearings = bumpshadow_unwrap_bearings(bearings); break;
+        case interpolant::direction: return {shadow_detail::bearing_of(function, along), sum.z};
+        case interpolant::light: return {shadow_detail::bearing_of(function, along), bumpshadow_slope(sum)};
+        case interpolant::raw_bearing: break;
+    }
+    return {glm::dot(bearings, weights), glm::dot(slopes, weights)};
+}
+
+// Shadow factor of an encoding that is looked up by bearing: tangent_volume or slice_layers.
+template <class Encoding, class Textures>
+[[nodiscard]] float shadow_factor(const Encoding& encoding, const Textures& textures, const sampler& how, glm::vec2 uv,
+                                  pixel_light light, const shadow_edge& edge = {}, float level = 0.0f) {
+    const float elevation = quantity_of_slope(encoding.scale.stored, light.slope) * stored_scale(encoding.scale);
+    return shadow_detail::edge_factor(elevation, horizon_at(encoding, textures, how, uv, light.bearing, level), edge);
+}
+
+}  // namespace bumpshadow
