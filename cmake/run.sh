@@ -27,13 +27,31 @@ has_header() {
     return 1
 }
 
-tools='' headers=''  # Debian's names of the packages that are missing
+# Mesa's software renderer, whose file was renamed in version 24.
+has_renderer() {
+    for file in /usr/lib/dri/swrast_dri.so /usr/lib/*/dri/swrast_dri.so /usr/lib/libgallium-* \
+        /usr/lib/*/libgallium-*; do
+        if [ -e "$file" ]; then return 0; fi
+    done
+    return 1
+}
+
+tools='' headers='' others=''  # Debian's names of the packages that are missing
 look_for_tool() { has_tool "$1" || tools="$tools $2"; }
 look_for_header() { has_header "$1" || headers="$headers $2"; }
 
-# Installs what the arguments (clang, xsimd) and every build need and do not have.
+# What compiles and runs the shaders. Tests that need it are skipped where it is missing.
+look_for_shader_tools() {
+    has_tool glslangValidator || others="$others glslang-tools"
+    has_tool spirv-cross || others="$others spirv-cross"
+    has_renderer || others="$others libgl1-mesa-dri"
+    look_for_header EGL/egl.h libegl-dev
+    look_for_header GL/glcorearb.h libgl-dev
+}
+
+# Installs what the arguments (clang, xsimd, shaders) and every build need and do not have.
 set_up() {
-    tools='' headers=''
+    tools='' headers='' others=''
     has_tool "${CXX:-c++}" || look_for_tool g++ g++
     look_for_tool cmake cmake
     has_tool ninja-build || look_for_tool ninja ninja-build
@@ -45,10 +63,11 @@ set_up() {
         case $extra in
             clang) look_for_tool clang++ clang ;;
             xsimd) look_for_header xsimd/xsimd.hpp libxsimd-dev ;;
+            shaders) look_for_shader_tools ;;
         esac
     done
 
-    missing="$tools$headers"
+    missing="$tools$headers$others"
     if [ -n "$missing" ]; then
         if ! has_tool apt-get; then
             say "no apt-get here; not found in the usual places (names as on Debian):$missing"
@@ -142,17 +161,17 @@ case $command in
         run_demo "$@"
         ;;
     test | sanitize)
-        set_up
+        set_up shaders
         workflow "$command"
         note_maps
         ;;
     clang)
-        set_up clang
+        set_up clang shaders
         workflow clang
         note_maps
         ;;
     full)
-        set_up clang xsimd
+        set_up clang xsimd shaders
         workflow test
         (cd "$root" && ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex slow)
         workflow clang

@@ -1,12 +1,13 @@
-// bake: a height map in, horizon slopes out. `bake --help` lists the options.
+// bake: a height map in, horizon slopes or packed textures out. `bake --help` lists the options.
 
-#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,16 +15,15 @@
 
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/executor.hpp>
-#include <bumpshadow/horizon/cascade.hpp>
-#include <bumpshadow/horizon/exact.hpp>
-#include <bumpshadow/horizon/neighborhood.hpp>
-#include <bumpshadow/horizon/sweep.hpp>
 #include <bumpshadow/horizon_map.hpp>
 
 #include "common/arguments.hpp"
+#include "common/dds.hpp"
+#include "common/encoding.hpp"
 #include "common/file.hpp"
 #include "common/heights.hpp"
 #include "common/image.hpp"
+#include "common/method.hpp"
 #include "common/picture.hpp"
 #include "common/progress.hpp"
 
@@ -32,32 +32,19 @@ namespace {
 using namespace examples;
 namespace bs = bumpshadow;
 
-enum class method { exact, cascade, sweep, sweep_classic, neighborhood };
-
-const std::vector<std::pair<std::string, method>> method_names{{"cascade", method::cascade},
-                                                               {"exact", method::exact},
-                                                               {"sweep", method::sweep},
-                                                               {"sweep-classic", method::sweep_classic},
-                                                               {"neighborhood", method::neighborhood}};
-
-const std::string& name_of(method how) {
-    return std::find_if(method_names.begin(), method_names.end(),
-                        [&](const auto& entry) { return entry.second == how; })
-        ->first;
-}
-
 struct arguments {
     height_source heights;
     std::string output;
-    method how = method::cascade;
-    bs::bake_options options;
-    int bearings = 16;
-    double phase = 0.0;
+    horizon_settings horizons;
+    encoding_settings encoding;
+    bool encoding_given = false;
+    std::optional<int> bearings;
+    std::optional<double> phase;
     int threads = 0;
     bool json = false;
 };
 
-enum class output_kind { f32, png };
+enum class output_kind { f32, png, dds, raw };
 
 output_kind kind_of(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
@@ -65,20 +52,9 @@ output_kind kind_of(const std::filesystem::path& path) {
         if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
     if (extension == ".f32") return output_kind::f32;
     if (extension == ".png") return output_kind::png;
-    throw failure("cannot write " + path.string() + ": the extension has to be .f32 or .png");
-}
-
-template <class Sample>
-bs::status bake(method how, const bs::height_map<Sample>& heights, std::span<const glm::dvec2> directions,
-                const bs::horizon_map& out, const bs::bake_options& options, const progress& execute) {
-    switch (how) {
-        case method::exact: return bs::bake_exact(heights, directions, out, options, execute);
-        case method::sweep: return bs::bake_sweep(heights, directions, out, options, execute);
-        case method::sweep_classic: return bs::bake_sweep_classic(heights, directions, out, options, execute);
-        case method::neighborhood: return bs::bake_neighborhood(heights, directions, out, options, execute);
-        case method::cascade: break;
-    }
-    return bs::bake_cascade(heights, directions, out, options, execute);
+    if (extension == ".dds") return output_kind::dds;
+    if (extension == ".raw") return output_kind::raw;
+    throw failure("cannot write " + path.string() + ": the extension has to be .f32, .png, .dds or .raw");
 }
 
 void write_f32(output_file& file, std::vector<float>& slopes) {
@@ -90,32 +66,26 @@ void write_f32(output_file& file, std::vector<float>& slopes) {
     file.write(std::as_bytes(std::span(slopes)));
 }
 
-void work(const arguments& arguments) {
-    const output_kind kind = kind_of(arguments.output);
-    std::error_code ignored;
-    if (std::filesystem::equivalent(arguments.heights.path, arguments.output, ignored))
-        throw failure("cannot write " + arguments.output + ": it is the height map itself");
-
+void write_slopes(const arguments& arguments, output_kind kind) {
     const height_samples samples = read_heights(arguments.heights);
     const glm::ivec2 extent = samples.extent;
-    if (kind == output_kind::png && !fits_png(std::int64_t(extent.x) * arguments.bearings, extent.y, 1))
+    const int bearings = arguments.bearings.value_or(16);
+    if (kind == output_kind::png && !fits_png(std::int64_t(extent.x) * bearings, extent.y, 1))
         throw failure("cannot write " + arguments.output + ": too large for a PNG, write .f32 instead");
     output_file file(arguments.output);
 
-    std::vector<glm::dvec2> directions(std::size_t(arguments.bearings));
-    bs::fill_directions(directions, arguments.phase);
-    std::vector<float> slopes(bs::required_size(extent, arguments.bearings));
-    const bs::horizon_map out{.values = slopes, .extent = extent, .bearings = arguments.bearings};
+    std::vector<glm::dvec2> directions(std::size_t(bearings), glm::dvec2(1.0, 0.0));
+    bs::fill_directions(directions, arguments.phase.value_or(0.0));
+    std::vector<float> slopes(bs::required_size(extent, bearings));
+    const bs::horizon_map out{.values = slopes, .extent = extent, .bearings = bearings};
 
     const bs::threads run(arguments.threads);
     const auto start = std::chrono::steady_clock::now();
-    const bs::status status =
-        with_height_map(samples, arguments.heights, arguments.heights.height_scale.value_or(1.0), [&](const auto& map) {
-            const progress execute(run, "baking");
-            return bake(arguments.how, map, directions, out, arguments.options, execute);
-        });
+    {
+        const progress execute(run, "baking");
+        bake_horizons(samples, arguments.heights, arguments.horizons, directions, out, execute);
+    }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (!status) throw failure(status.message().c_str());
 
     const double nanoseconds = seconds * 1e9 / double(slopes.size());
     if (kind == output_kind::f32) {
@@ -128,16 +98,81 @@ void work(const arguments& arguments) {
     }
     file.commit();
 
+    const std::string& method = name_of(arguments.horizons.how);
     if (arguments.json)
         std::printf(
             "{\"width\":%d,\"height\":%d,\"bearings\":%d,\"method\":\"%s\",\"threads\":%d,\"seconds\":%.6f,"
             "\"ns_per_sample\":%.4f,\"steps\":%d}\n",
-            extent.x, extent.y, arguments.bearings, name_of(arguments.how).c_str(), run.concurrency(), seconds,
-            nanoseconds, arguments.options.steps);
+            extent.x, extent.y, bearings, method.c_str(), run.concurrency(), seconds, nanoseconds,
+            arguments.horizons.options.steps);
     else
         std::printf("%s: %d x %d texels, %d bearings by %s on %d thread%s in %.3f s, %.2f ns a sample\n",
-                    arguments.output.c_str(), extent.x, extent.y, arguments.bearings, name_of(arguments.how).c_str(),
-                    run.concurrency(), run.concurrency() == 1 ? "" : "s", seconds, nanoseconds);
+                    arguments.output.c_str(), extent.x, extent.y, bearings, method.c_str(), run.concurrency(),
+                    run.concurrency() == 1 ? "" : "s", seconds, nanoseconds);
+}
+
+// x.dds, x.1.dds, x.2.dds
+std::filesystem::path numbered(std::filesystem::path path, std::size_t number) {
+    if (number == 0) return path;
+    const std::string extension = path.extension().string();
+    path.replace_extension();
+    path += "." + std::to_string(number) + extension;
+    return path;
+}
+
+void write_textures(const arguments& arguments, output_kind kind) {
+    if (arguments.phase) throw failure("--phase: slices of a texture start at 0");
+    encoding_settings settings = arguments.encoding;
+    settings.bearings = arguments.bearings;
+    const height_samples samples = read_heights(arguments.heights);
+    // Opened first, so that a folder that cannot be written is known before any work.
+    output_file first(arguments.output);
+    const encoded map = encode_heights(samples, arguments.heights, arguments.horizons, settings, arguments.threads);
+    std::vector<std::unique_ptr<output_file>> others;
+    for (std::size_t i = 0; i < map.textures.size(); ++i) {
+        if (i > 0 && kind == output_kind::dds)
+            others.push_back(std::make_unique<output_file>(numbered(arguments.output, i)));
+        output_file& file = i == 0 || kind == output_kind::raw ? first : *others.back();
+        if (kind == output_kind::dds)
+            write_dds(file, map.textures[i].view());
+        else
+            file.write(map.textures[i].bytes);
+    }
+    first.close();
+    for (const auto& file : others) file->close();
+    first.commit();
+    for (const auto& file : others) file->commit();
+
+    std::size_t bytes = 0;
+    for (const owned_texture& t : map.textures) bytes += t.bytes.size();
+    if (arguments.json || kind == output_kind::raw)
+        std::printf("{\"width\":%d,\"height\":%d,\"method\":\"%s\",\"steps\":%d,%s}\n", map.extent.x, map.extent.y,
+                    name_of(arguments.horizons.how).c_str(), arguments.horizons.options.steps, json_of(map).c_str());
+    else
+        std::printf(
+            "%s: %d x %d texels as %s, %zu texture%s of %.3g bytes a texel, baked in %.3f s, packed in %.3f s\n",
+            arguments.output.c_str(), map.extent.x, map.extent.y, name_of(settings.kind).c_str(), map.textures.size(),
+            map.textures.size() == 1 ? "" : "s", double(bytes) / (double(map.extent.x) * map.extent.y),
+            map.bake_seconds, map.pack_seconds);
+    if (map.report.clamped > 0)
+        std::fprintf(
+            stderr, "bake: %zu values lie beyond what stands for 1 and were stored as that%s\n", map.report.clamped,
+            map.report.steepest > 0.0f ? (" (steepest slope: " + std::to_string(map.report.steepest) + ")").c_str()
+                                       : "");
+}
+
+void work(const arguments& arguments) {
+    const output_kind kind = kind_of(arguments.output);
+    std::error_code ignored;
+    if (std::filesystem::equivalent(arguments.heights.path, arguments.output, ignored))
+        throw failure("cannot write " + arguments.output + ": it is the height map itself");
+    const bool textures = kind == output_kind::dds || kind == output_kind::raw;
+    if (arguments.encoding_given && !textures)
+        throw failure("cannot write " + arguments.output + " with --encoding: the extension has to be .dds or .raw");
+    if (textures)
+        write_textures(arguments, kind);
+    else
+        write_slopes(arguments, kind);
     flush_stdout();
 }
 
@@ -146,7 +181,7 @@ void work(const arguments& arguments) {
 int main(int argc, char** argv) try {
     CLI::App app(
         "Bakes the horizon slopes of a height map: how steep light has to come in, from each of N bearings, to reach a "
-        "texel.",
+        "texel. Packs them into textures, too.",
         "bake");
     arguments arguments;
 
@@ -156,41 +191,29 @@ int main(int argc, char** argv) try {
     app.add_option("-o,--output", arguments.output,
                    "where to write. FILE.f32: slopes as bare little-endian float32, [bearing][y][x], bearing i at "
                    "phase + i/N of a turn from +x (right) towards +y (down in the picture). FILE.png: the slices side "
-                   "by side, elevation of the horizon from 0 degrees (black) to 90 (white)")
+                   "by side, elevation of the horizon from 0 degrees (black) to 90 (white). FILE.dds: the textures of "
+                   "--encoding, a second one as FILE.1.dds. FILE.raw: their bytes one after the other, and a line of "
+                   "JSON on standard output with all that decoding needs")
         ->required()
         ->type_name("FILE");
     add_height_options(app, arguments.heights, "default 1");
-    add_choice(app, "--method", arguments.how, method_names, "how horizons are found")->type_name("METHOD");
-    app.add_option("--steps", arguments.options.steps, "cascade: texels of a level that it looks at; more is finer")
-        ->check(whole_number(1, 1 << 20))
-        ->capture_default_str()
-        ->type_name("K");
-    app.add_option("--radius", arguments.options.radius,
-                   "occluders farther than this are left out, in the unit of --texel-size (default: none are)")
-        ->check(positive_or_infinite_number())
-        ->type_name("R");
-    app.add_option_function<std::pair<double, double>>(
-           "--curvature",
-           [&](const auto& curvature) {
-               arguments.options.curvature = {curvature.first, curvature.second};
-           },
-           "curvature of the base surface along x and y, 1/unit (default 0 0)")
-        ->check(finite_number())
-        ->type_name("KX KY");
-    app.add_option("--bearings", arguments.bearings, "number of slices")
+    add_horizon_options(app, arguments.horizons);
+    app.add_option("--bearings", arguments.bearings, "number of slices (default 16; of textures: the encoding's own)")
         ->check(whole_number(1, 65536))
-        ->capture_default_str()
         ->type_name("N");
-    app.add_option("--phase", arguments.phase, "bearing of the first slice, in turns")
+    app.add_option("--phase", arguments.phase, "bearing of the first slice, in turns (default 0)")
         ->check(finite_number())
-        ->capture_default_str()
         ->type_name("TURNS");
     app.add_option("--threads", arguments.threads, "threads to bake on (default: one a core)")
         ->check(whole_number(1, 4096))
         ->type_name("N");
     app.add_flag("--json", arguments.json, "print one line of JSON instead of a sentence");
+    add_encoding_options(app, arguments.encoding, false);
 
-    return run_program(app, argc, argv, [&] { work(arguments); });
+    return run_program(app, argc, argv, [&] {
+        arguments.encoding_given = app.get_option("--encoding")->count() > 0;
+        work(arguments);
+    });
 } catch (const std::exception& error) {
     std::fprintf(stderr, "bake: %s\n", error.what());
     return 1;

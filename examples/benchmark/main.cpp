@@ -17,6 +17,7 @@
 #include "common/file.hpp"
 #include "common/heights.hpp"
 #include "common/manifest.hpp"
+#include "common/report_text.hpp"
 #include "common/stone_wall.hpp"
 
 namespace {

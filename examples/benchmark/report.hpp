@@ -18,9 +18,6 @@ struct check {
 
 [[nodiscard]] std::vector<check> checks_of(const measurement& m);
 
-// How this program was built, in one line.
-[[nodiscard]] std::string build_text();
-
 // A table in Markdown.
 [[nodiscard]] std::string table_of(const measurement& m);
 

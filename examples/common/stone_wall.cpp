@@ -8,7 +8,8 @@
 #include <glm/ext/vector_double2.hpp>
 #include <glm/geometric.hpp>
 
-#include "common/shade.hpp"
+#include <bumpshadow/quantize.hpp>
+#include <bumpshadow/reference/lighting.hpp>
 
 namespace examples {
 namespace {
@@ -31,6 +32,11 @@ std::uint32_t hash(int x, int y, int seed) {
 
 // A number in [low, high).
 double pick(std::uint32_t h, double low, double high) { return low + (high - low) * double(h >> 8) / double(1u << 24); }
+
+glm::vec3 to_linear(glm::vec3 srgb) {
+    using bumpshadow::srgb_to_linear;
+    return {srgb_to_linear(srgb.x), srgb_to_linear(srgb.y), srgb_to_linear(srgb.z)};
+}
 
 int wrap(int i, int n) { return (i % n + n) % n; }
 
@@ -172,7 +178,7 @@ glm::vec3 stone_color(const stone& s) {
                                               {186, 154, 122},
                                               {172, 160, 142}}};
     const glm::vec3 srgb = tints[s.key(60) % tints.size()] / 255.0f;
-    return linear(srgb) * float(s.random(61, 0.78, 1.1));
+    return to_linear(srgb) * float(s.random(61, 0.78, 1.1));
 }
 
 }  // namespace
@@ -183,8 +189,8 @@ stone_wall make_stone_wall() {
     wall.extent = {size, size};
     wall.height_scale = height_scale;
     wall.heights.resize(std::size_t(size) * size);
-    wall.albedo.resize(std::size_t(size) * size);
-    const glm::vec3 mortar_color = linear(glm::vec3(176, 166, 150) / 255.0f);
+    wall.diffuse = image8(wall.extent, 3);
+    const glm::vec3 mortar_color = to_linear(glm::vec3(176, 166, 150) / 255.0f);
 
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
@@ -232,7 +238,9 @@ stone_wall make_stone_wall() {
             const float of_stone = float(smooth_step(-0.5, 1.5, rock - mortar));
             const glm::vec3 rock_color = stone_color(*nearest) * float(shade);
             const glm::vec3 joint_color = mortar_color * float(0.92 + 0.1 * blotches + 0.1 * grain);
-            wall.albedo[i] = joint_color + (rock_color - joint_color) * of_stone;
+            const glm::vec3 color = joint_color + (rock_color - joint_color) * of_stone;
+            for (int c = 0; c < 3; ++c)
+                wall.diffuse.at(x, y)[c] = bumpshadow::to_unorm8(bumpshadow::linear_to_srgb(color[c]));
         }
     return wall;
 }

@@ -3,8 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/ext/vector_float3.hpp>
 #include <glm/ext/vector_int2.hpp>
+
+#include "common/image.hpp"
 
 namespace examples {
 
@@ -12,8 +13,8 @@ namespace examples {
 struct stone_wall {
     glm::ivec2 extent{0};
     std::vector<std::uint16_t> heights;
-    std::vector<glm::vec3> albedo;  // linear RGB
-    double height_scale = 0.0;      // texels
+    image8 diffuse;             // RGB, sRGB
+    double height_scale = 0.0;  // texels
 };
 
 [[nodiscard]] stone_wall make_stone_wall();

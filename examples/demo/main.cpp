@@ -19,10 +19,14 @@
 #include <vector>
 
 #include <bumpshadow/bearing.hpp>
+#include <bumpshadow/encode/tangent_volume.hpp>
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/horizon/cascade.hpp>
 #include <bumpshadow/horizon/exact.hpp>
 #include <bumpshadow/horizon_map.hpp>
+#include <bumpshadow/normal_map.hpp>
+#include <bumpshadow/reference/shade.hpp>
+#include <bumpshadow/reference/shadow.hpp>
 
 #include "common/arguments.hpp"
 #include "common/file.hpp"
@@ -30,7 +34,7 @@
 #include "common/image.hpp"
 #include "common/picture.hpp"
 #include "common/progress.hpp"
-#include "common/shade.hpp"
+#include "common/shading.hpp"
 #include "common/stone_wall.hpp"
 #include "demo/page.hpp"
 
@@ -42,7 +46,7 @@ namespace bs = bumpshadow;
 constexpr int bearings = 16;
 constexpr std::array<int, 3> still_elevations{15, 30, 50};
 constexpr double side_by_side_elevation = 25.0, turning_elevation = 25.0;
-constexpr double from_top_left = 0.625;
+constexpr double from_top_left = -135.0;  // azimuth, degrees
 constexpr int longest_frame = 1024, longest_thumbnail = 256, longest_half = 599;
 
 struct arguments {
@@ -192,8 +196,7 @@ private:
 };
 
 template <class Sample>
-void show(const arguments& arguments, const bs::height_map<Sample>& heights, std::vector<glm::vec3> albedo,
-          const std::string& name) {
+void show(const arguments& arguments, const bs::height_map<Sample>& heights, image8 diffuse, const std::string& name) {
     const bs::threads run(arguments.threads);
     const std::filesystem::path folder = arguments.folder;
     output_folder created(folder);
@@ -228,8 +231,10 @@ void show(const arguments& arguments, const bs::height_map<Sample>& heights, std
     facts.magnified = std::max(extent.x, extent.y) < 256;
     std::printf("%s\n", facts.map.c_str());
 
+    bs::tangent_volume encoding;
+    encoding.slices.count = bearings;
     std::vector<glm::dvec2> directions(bearings);
-    bs::fill_directions(directions, 0.0);
+    bs::fill_directions(directions, 0.0, encoding.slices.function);
     std::vector<float> slopes(bs::required_size(extent, bearings));
     const bs::horizon_map horizons{.values = slopes, .extent = extent, .bearings = bearings};
     auto start = std::chrono::steady_clock::now();
@@ -248,26 +253,46 @@ void show(const arguments& arguments, const bs::height_map<Sample>& heights, std
     std::printf("%s\n", facts.error.c_str());
 
     start = std::chrono::steady_clock::now();
-    const surface surface{extent, normals_of(heights), std::move(albedo)};
+    // Packed and sampled as a GPU would.
+    encoding.scale.max_slope = bs::suggest_max_slope(horizons);
+    const bs::texture_layout layout = layout_of(encoding, extent);
+    std::vector<std::byte> bytes(layout.required_size());
+    surface surface{extent, std::vector<float>(3 * bs::required_size(extent, 1)), std::move(diffuse)};
+    bs::status packed =
+        bs::pack_tangent_volume(horizons, directions, encoding, {.fit = bs::slice_fit::point}, {bytes, layout}, run);
+    if (packed) packed = bs::bake_normals(heights, {.values = surface.normals, .extent = extent}, {}, run);
+    if (!packed) throw failure(packed.message().c_str());
+    // In the light of a sun that is larger than ours, so that its penumbra can be seen.
+    const auto draw = [&](double azimuth, double elevation, bool shadows) {
+        const glm::vec3 light = light_direction(azimuth, elevation);
+        const bs::shade_options options = sun_and_sky(surface, light);
+        if (!shadows) return shade_picture(surface, options, bs::no_shadow{}, bs::serial{});
+        const bs::encoded_shadow<bs::tangent_volume> shadow{
+            encoding, bs::const_texture{bytes, layout}, {}, {.c = 0.5f}, 1.0};
+        return shade_picture(surface, options, shadow, bs::serial{});
+    };
     std::vector<image8> thumbnails(bearings), slices(bearings);
     run_all(run, stills.size() + frames.size() + 2, [&](std::size_t i) {
         if (i < stills.size()) {
-            const light from{from_top_left, double(still_elevations[i])};
-            const std::array<image8, 2> both{shade(surface, from, nullptr), shade(surface, from, &horizons)};
+            const double elevation = still_elevations[i];
+            const std::array<image8, 2> both{draw(from_top_left, elevation, false),
+                                             draw(from_top_left, elevation, true)};
             write_png(*stills[i], sheet(both, 2, std::min(extent.x / 16, 8)));
             return;
         }
         i -= stills.size();
         if (i < frames.size()) {
-            const image8 frame = shade(surface, {double(i) / bearings, turning_elevation}, &horizons);
+            const image8 frame = draw(360.0 * double(i) / bearings, turning_elevation, true);
             write_png(*frames[i], shrink(frame, longest_frame));
             thumbnails[i] = shrink(frame, longest_thumbnail);
             slices[i] = shrink(picture_of_slice(horizons, int(i)), longest_thumbnail);
             return;
         }
         if (i == frames.size()) {
-            const light from{from_top_left, side_by_side_elevation};
-            write_jpg(side_by_side, halves(shade(surface, from, nullptr), shade(surface, from, &horizons)), 88);
+            write_jpg(side_by_side,
+                      halves(draw(from_top_left, side_by_side_elevation, false),
+                             draw(from_top_left, side_by_side_elevation, true)),
+                      88);
         } else {
             write_png(height_picture, picture_of_heights(heights));
         }
@@ -289,7 +314,7 @@ void work(const arguments& arguments) {
         map.height_scale = arguments.heights.height_scale.value_or(wall.height_scale);
         map.texel_size = arguments.heights.texel_size;
         map.edge = arguments.heights.edge;
-        show(arguments, map, std::move(wall.albedo), "A stone wall, made by the program");
+        show(arguments, map, std::move(wall.diffuse), "A stone wall, made by the program");
     } else {
         const height_samples samples = read_heights(arguments.heights);
         const glm::dvec2 texel = arguments.heights.texel_size;

@@ -158,8 +158,8 @@ refuse 1 "height is -inf at texel (1, 0)" in/infinite.f32 -o out/a.f32 --raw 2 1
 run in/nan.f32 -o out/a.f32 --raw 2 3 --no-data nan
 rm -f out/a.f32
 
-refuse 1 'out/a.txt: the extension has to be .f32 or .png' $map -o out/a.txt
-refuse 1 'the extension has to be .f32 or .png' $map -o out/a
+refuse 1 'out/a.txt: the extension has to be .f32, .png' $map -o out/a.txt
+refuse 1 'the extension has to be .f32, .png' $map -o out/a
 refuse 1 'out/none/a.f32: No such file' $map -o out/none/a.f32
 refuse 1 'it is the height map itself' $map -o in/../in/gray8.png
 mkdir out/folder.f32

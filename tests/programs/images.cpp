@@ -131,6 +131,12 @@ void make(const std::filesystem::path& folder) {
     list block;
     for (unsigned y = 0; y < 32; ++y)
         for (unsigned x = 0; x < 32; ++x) block.push_back(x >= 14 && x < 18 && y >= 14 && y < 18 ? 255u : 0u);
+    // A gentle hill, 64 x 64, that tiles.
+    list hill;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            hill.push_back(unsigned(4 * (32 - std::abs(x - 32)) + 3 * (32 - std::abs(y - 32))));
+    save(folder / "hill.png", png(64, 64, 1, 8, hill));
     save(folder / "block.png", png(32, 32, 1, 8, block));
 }
 

@@ -1,0 +1,133 @@
+# sh textures.sh BAKE IMAGES WORK_DIR
+# bake --encoding: bytes worked by hand, headers after their specification, and other programs that read the files.
+# shellcheck disable=SC2086,SC2089,SC2090 # lists of words
+# shellcheck source=tests/programs/check.sh
+. "$(dirname "$0")/check.sh"
+
+hex() { od -An -v -tx1 "$@" | tr -d ' \n'; }
+# holds FILE SKIP WANTED: the bytes from SKIP on, in hexadecimal
+holds() {
+    found=$(tail -c +$(($2 + 1)) "$1" | hex)
+    [ "$found" = "$3" ] || fail "$1 holds $found instead of $3"
+}
+# words FILE SKIP COUNT WANTED...: little-endian 32-bit numbers
+words() {
+    file=$1 skip=$2 count=$3
+    shift 3
+    found=$(od -An -v -tu4 -j "$skip" -N $((4 * count)) "$file" | tr -s ' \n' ' ' | sed 's/^ //; s/ $//')
+    [ "$found" = "$*" ] || fail "$file holds $found at $skip instead of $*"
+}
+
+# ---- A step of height 4: horizons of slope 1, 4/3, 2, 4 in front of it, over a max_slope of 4 ----
+
+exact='--method exact --height-scale 4 --fit point'
+step="$exact --edge clamp --max-slope 4"
+volume=405580ff00000000
+none=0000000000000000
+
+run in/gray8.png -o out/a.raw $step --encoding tangent --bearings 2
+holds out/a.raw 0 $volume$none
+wanted='{"width":8,"height":1,"method":"exact","steps":15,"encoding":"tangent","bearings":2,"phase":0,'
+wanted=$wanted'"bearing_function":"cubic","stored":"slope","max_slope":4,"coordinate_offset":0.25,"textures":['
+wanted=$wanted'{"format":"r8","kind":"volume","width":8,"height":1,"depth":2,"layers":1,"mips":1,"offset":0,"bytes":16}],'
+wanted=$wanted'"clamped":0,"steepest":4,"directions":2,"bake_seconds":N,"pack_seconds":N}'
+json=$(sed -E 's/(_seconds":)[0-9.]+/\1N/g' stdout)
+[ "$json" = "$wanted" ] || fail "JSON: $(cat stdout)"
+
+# Microsoft, "DDS file layout": magic, 124, capabilities (height, width, format, pitch, depth), height, width, pitch, depth.
+run in/gray8.png -o out/a.dds $step --encoding tangent --bearings 2
+[ "$(head -c 4 out/a.dds)" = 'DDS ' ] || fail "magic: $(head -c 4 out/a.dds | hex)"
+words out/a.dds 4 7 124 $((0x80100f)) 1 8 8 2 0
+words out/a.dds 76 8 32 $((0x20000)) 0 8 255 0 0 0
+words out/a.dds 108 2 $((0x1008)) $((0x200000))
+holds out/a.dds 128 $volume$none
+
+# 16 bits: 16384, 21845, 32768, 65535.
+run in/gray8.png -o out/a.raw $step --encoding tangent --bearings 2 --bits 16
+holds out/a.raw 0 004055550080ffff$none$none$none
+# Sines of slopes 1, 4/3, 2, 4 over that of 4: 0.7289, 0.8246, 0.9220, 1.
+run in/gray8.png -o out/a.raw $step --encoding tangent --bearings 2 --stored sine
+holds out/a.raw 0 bad2ebff00000000$none
+# Slices 0 and 2 of four see the step of a map that tiles, from either side.
+run in/gray8.png -o out/a.raw $exact --max-slope 4 --encoding layers --bearings 4
+holds out/a.raw 0 4000ff005500800080005500ff004000$none$none
+# An array of D3D10: DXGI_FORMAT_R8G8B8A8_UNORM, a 2D texture of one layer.
+run in/gray8.png -o out/a.dds $exact --max-slope 4 --encoding layers --bearings 4
+words out/a.dds 84 1 $((0x30315844))
+words out/a.dds 128 5 28 3 0 1 0
+[ "$(bytes out/a.dds)" -eq $((148 + 32)) ] || fail "array of $(bytes out/a.dds) bytes"
+
+# ---- Bytes a texel, of 64 x 64 texels ----
+
+# sized BYTES ARGUMENTS
+sized() {
+    wanted=$1
+    shift
+    rm -f out/*
+    run in/hill.png -o out/a.raw --height-scale 4 "$@"
+    [ "$(bytes out/a.raw)" -eq "$wanted" ] || fail "$* wrote $(bytes out/a.raw) bytes instead of $wanted"
+}
+sized $((64 * 64 * 8)) --encoding tangent
+sized $((64 * 64 * 16)) --encoding tangent --bits 16
+sized $((64 * 64 * 8)) --encoding tangent --bearings 16 --bits bc4
+sized $((32 * 32 * 8)) --encoding tangent --reduce 2
+sized $((64 * 64 * 8 + 32 * 32 * 4)) --encoding tangent --mips
+sized $((64 * 64 * 8 + 32 * 32 * 8)) --encoding tangent --array --mips
+sized $((64 * 64 * 16)) --encoding layers --bearings 16
+sized $((64 * 64 * 16)) --encoding layers --bearings 12 --overlapping
+sized $((64 * 64 * 8)) --encoding sine
+sized $((64 * 64 * 8)) --encoding sine --published
+sized $((64 * 64 * 5)) --encoding fourier
+sized $((64 * 64 * 9)) --encoding fourier --coefficients 9
+sized $((64 * 64 * 10)) --encoding fourier --bits 16
+sized $((64 * 64 * 4)) --encoding ssbump
+sized $((4 * (4096 + 1024 + 256 + 64 + 16 + 4 + 1))) --encoding ssbump --mips
+sized $((64 * 64 * 2)) --encoding emboss
+
+# Two textures are two files.
+rm -f out/*
+run in/block.png -o out/a.dds --height-scale 4 --encoding fourier
+[ "$(left)" = './a.1.dds ./a.dds ' ] || fail "two textures: $(left)"
+
+# ---- Other readers ----
+
+run in/block.png -o out/b.raw --height-scale 4 --encoding emboss
+run in/block.png -o out/b.dds --height-scale 4 --encoding emboss
+if command -v convert >/dev/null; then
+    convert out/b.dds -depth 8 gray:out/read
+    head -c 1024 out/b.raw | cmp -s - out/read || fail "ImageMagick reads other bytes"
+else
+    echo "skipped: no ImageMagick here to read the files"
+fi
+if command -v iinfo >/dev/null; then
+    # seen FILE TEXT
+    seen() { iinfo -v "$1" | tr -s ' ' | grep -qF -e "$2" || fail "OpenImageIO sees in $1: $(iinfo -v "$1")"; }
+    run in/hill.png -o out/c.dds --height-scale 4 --encoding tangent --mips
+    seen out/c.dds '64 x 64 x 8, 1 channel, volume uint8 dds'
+    seen out/c.dds 'MIP-map levels: 64x64 32x32'
+    run in/hill.png -o out/c.dds --height-scale 4 --encoding tangent --bits bc4 --bearings 16
+    seen out/c.dds '64 x 64 x 16, 1 channel, volume uint8 dds'
+    seen out/c.dds 'compression: "BC4"'
+else
+    echo "skipped: no OpenImageIO here to read volumes and BC4"
+fi
+
+# ---- Refused ----
+
+rm -f out/*
+refuse 1 'the extension has to be .dds or .raw' in/block.png -o out/a.png --encoding tangent
+refuse 1 'multiple' in/block.png -o out/a.dds --encoding layers --bearings 6
+refuse 1 '--bearings: sine layers have 8' in/block.png -o out/a.dds --encoding sine --bearings 4
+refuse 1 '--bits: bc4' in/block.png -o out/a.dds --encoding layers --bits bc4
+refuse 2 '--coefficients' in/block.png -o out/a.dds --encoding fourier --coefficients 4
+refuse 2 '--max-slope' in/block.png -o out/a.dds --max-slope 0
+refuse 1 'max_slope is inf' in/block.png -o out/a.dds --max-slope inf
+refuse 2 '--encoding' in/block.png -o out/a.dds --encoding traced
+refuse 1 'missing.png' in/missing.png -o out/a.dds
+# What does not fit is clamped, counted and said.
+"$program" in/gray8.png -o out/a.raw $exact --edge clamp --max-slope 2 --encoding tangent --bearings 2 >stdout 2>stderr ||
+    fail "a small max_slope is refused"
+grep -q '^bake: 1 values lie beyond' stderr || fail "clamped values are not counted: $(cat stderr)"
+holds out/a.raw 0 80aaffff00000000$none
+
+finish
