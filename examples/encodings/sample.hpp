@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/ext/vector_double2.hpp>
+#include <glm/ext/vector_int2.hpp>
+
+#include <bumpshadow/horizon_map.hpp>
+
+#include "common/heights.hpp"
+
+namespace examples {
+
+// Bearings of the traced light, and of the exact horizons: a multiple of 8, 12, 16, 24, 32 and 48.
+inline constexpr int light_bearings = 96;
+// Elevations of the traced light, in degrees.
+inline constexpr std::array<double, 6> light_elevations{5.0, 10.0, 20.0, 30.0, 45.0, 60.0};
+// Side of a patch: whole blocks of 4, 5 and 6 texels.
+inline constexpr int patch_side = 60;
+
+// Patches of one height map, side by side, with their exact horizons.
+struct sample_map {
+    std::string name;
+    glm::ivec2 extent{0};                // patches * side, side
+    int side = patch_side;               // texels along a patch
+    std::vector<glm::dvec2> directions;  // of light_bearings, true angles from +x
+    std::vector<float> slopes;           // [bearing][y][x], exact
+    float steepest = 0.0f;
+
+    // The horizons at `count` evenly spaced bearings, which has to divide light_bearings.
+    [[nodiscard]] bumpshadow::horizon_map every(int count) const;
+    [[nodiscard]] std::vector<glm::dvec2> directions_of(int count) const;
+    [[nodiscard]] std::size_t texels() const { return std::size_t(extent.x) * std::size_t(extent.y); }
+};
+
+// Bakes patches that are spread over a map: one in each cell of a grid, its place in there drawn by a fixed generator.
+// texels: how many at least. Throws failure where the map has no room for them.
+[[nodiscard]] sample_map take_sample(const std::string& name, const height_samples& heights,
+                                     const height_source& source, double height_scale, int texels, std::uint32_t seed);
+
+// The same, less what is beyond `side` texels of every patch.
+[[nodiscard]] sample_map crop(const sample_map& map, int side);
+
+}  // namespace examples

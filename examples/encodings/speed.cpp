@@ -1,0 +1,118 @@
+#include "encodings/speed.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+
+#include <bumpshadow/bearing.hpp>
+#include <bumpshadow/encode/stb_blocks.hpp>
+#include <bumpshadow/encode/tangent_volume.hpp>
+#include <bumpshadow/horizon/cascade.hpp>
+#include <bumpshadow/reference/shade.hpp>
+#include <bumpshadow/reference/shadow.hpp>
+
+#include "common/progress.hpp"
+
+namespace examples {
+namespace {
+
+namespace bs = bumpshadow;
+
+constexpr int directions = 32;
+
+void expect(const bs::status& s) {
+    if (!s) throw failure(s.message().c_str());
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 != 0 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+template <class Work>
+double time_of(Work&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Packs one kind of texture again and again, into the same memory.
+class packer {
+public:
+    packer(const bs::horizon_map& slopes, std::span<const glm::dvec2> ways, int slices, bs::texel_format format)
+        : slopes_(slopes), ways_(ways) {
+        encoding_.slices.count = slices;
+        encoding_.format = format;
+        layout_ = bs::layout_of(encoding_, slopes.extent);
+        bytes_.resize(layout_.required_size());
+        scratch_.resize(bs::slice_scratch_size(slopes.extent, ways.size(), slices));
+    }
+    void operator()() {
+        bs::pack_options options;
+        options.scratch = scratch_;
+        expect(bs::pack_tangent_volume(slopes_, ways_, encoding_, options, {bytes_, layout_}));
+    }
+    [[nodiscard]] const bs::tangent_volume& encoding() const { return encoding_; }
+    [[nodiscard]] bs::const_texture texture() const { return {bytes_, layout_}; }
+
+private:
+    const bs::horizon_map& slopes_;
+    std::span<const glm::dvec2> ways_;
+    bs::tangent_volume encoding_;
+    bs::texture_layout layout_;
+    std::vector<std::byte> bytes_, scratch_;
+};
+
+}  // namespace
+
+speeds measure_speed(const height_samples& heights, const height_source& source, double height_scale, int repeats) {
+    const glm::ivec2 extent = heights.extent;
+    std::vector<glm::dvec2> ways(directions);
+    bs::fill_directions(ways);
+    std::vector<float> values(bs::required_size(extent, directions));
+    const bs::horizon_map slopes{.values = values, .extent = extent, .bearings = directions};
+
+    const auto bake = [&] {
+        with_height_map(heights, source, height_scale,
+                        [&](const auto& view) { expect(bs::bake_cascade(view, ways, slopes)); });
+    };
+    bake();
+    packer r8(slopes, ways, 8, bs::texel_format::r8), bc4(slopes, ways, 16, bs::texel_format::bc4);
+    r8();
+    bc4();
+    std::vector<float> picture(3 * std::size_t(extent.x) * std::size_t(extent.y));
+    const bs::encoded_shadow<bs::tangent_volume> shadow{.encoding = r8.encoding(), .textures = r8.texture()};
+    bs::shade_options light;
+    light.light.direction = {0.8f, 0.5f, 0.4f};
+    const auto shade = [&] { expect(bs::shade(light, shadow, bs::flat_surface{extent}, {picture, extent})); };
+    shade();
+
+    // By turns, so that a machine that becomes slower or faster meanwhile does not matter to the shares.
+    std::vector<double> bakes, packs, shares, blocks, shades;
+    for (int i = 0; i < repeats; ++i) {
+        if (stderr_is_terminal()) std::fprintf(stderr, "\rspeed: %d of %d\033[K", i + 1, repeats);
+        bakes.push_back(time_of(bake));
+        packs.push_back(time_of(r8));
+        shares.push_back(packs.back() / bakes.back());
+        shades.push_back(time_of(shade));
+        blocks.push_back(time_of(bc4));
+    }
+    if (stderr_is_terminal()) std::fputs("\r\033[K", stderr);
+
+    const double texels = double(extent.x) * double(extent.y);
+    const auto nanoseconds = [&](const std::vector<double>& times) { return median(times) * 1e9 / texels; };
+    speeds result;
+    result.pack_share = median(shares);
+    result.shade_rate = 1e-6 * texels / median(shades);
+    result.figures = {
+        {"bake of 32 directions, ns a texel", nanoseconds(bakes)},
+        {"8 slices in R8 fitted to them, ns a texel", nanoseconds(packs)},
+        {"the same as a share of the bake", result.pack_share},
+        {"16 slices in BC4 fitted to them, ns a texel", nanoseconds(blocks)},
+        {"shading with one light and 8 slices in R8, million texels a second", result.shade_rate},
+    };
+    return result;
+}
+
+}  // namespace examples
