@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "source.hpp"
+
+namespace examples {
+
+// A shader whose cost is asked for.
+struct shader_case {
+    std::string group, name;
+    std::string textures;  // declarations, at bindings 0 to 6
+    std::string result;    // type of what is stored: float, vec2 or vec3
+    std::string body;      // from vec2 uv and vec3 light, per thread, and the constants of the harness
+};
+
+// What is subtracted: the harness around nothing. One for each type of result.
+[[nodiscard]] shader_case empty_case(const std::string& result);
+
+// From the papers. They do not call the project's snippets.
+[[nodiscard]] std::vector<shader_case> yardsticks();
+
+[[nodiscard]] std::vector<shader_case> snippet_cases();
+
+// The whole compute shader, with the snippets that the case calls and no others. Throws std::runtime_error where one
+// does not exist.
+[[nodiscard]] std::string compose(const shader_case& one, const shaders::source& snippets);
+
+}  // namespace examples
