@@ -56,7 +56,7 @@ inline constexpr int most_steps = 65536;
 struct bake_options {
     // Cascade: texels that are looked at one by one, 1 to most_steps; error falls and cost grows with it. Other methods
     // ignore it.
-    int steps = 15;
+    int steps = 12;
     // Occluders farther than this are left out, in the unit of texel_size.
     double radius = std::numeric_limits<double>::infinity();
     // Principal curvatures of the base surface along x and y, in 1/unit. Along a bearing the base falls away by

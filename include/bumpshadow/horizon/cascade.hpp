@@ -127,11 +127,13 @@ template <height_sample Sample>
 [[nodiscard]] rectangle influence(const height_map<Sample>& heights, rectangle changed, const bake_options& options) {
     const rectangle all{glm::ivec2(0), heights.extent};
     if (std::isinf(options.radius)) return all;
-    // Cells of the highest level that looks within the radius, which take part in those next to them.
+    // Cells of the highest level that looks within the radius, half as high as they are; they take part in those next
+    // to them.
     const glm::dvec2 radius = options.radius / heights.texel_size;
-    double reach = options.steps, cell = 1.0;
+    const int near = cascade_detail::near_rows(options.steps, false);
+    double reach = near, cell = 1.0;
     for (int level = 1; reach < (std::max)(radius.x, radius.y); ++level) {
-        reach *= cascade_detail::growth(level);
+        reach *= cascade_detail::growth(level, near, cascade_detail::is_narrow(options.steps));
         cell *= 2.0;
     }
     const bool tiles = heights.edge == edge_mode::repeat || heights.edge == edge_mode::mirror;

@@ -26,13 +26,25 @@ namespace bumpshadow::cascade_detail {
 inline constexpr int most_levels = 32;
 inline constexpr int border = 8;  // texels that level 0 has beyond its halo
 inline constexpr int overhang = 2 * simd::width + 2;
-inline constexpr float hole = -1e37f;         // height of a hole; far enough below to never occlude
-inline constexpr float hole_limit = -1e20f;   // what is below has a hole in it
-inline constexpr float occluder_bias = 0.4f;  // a coarse occluder is its mean and this part of the way to its maximum
+inline constexpr float hole = -1e37f;           // height of a hole; far enough below to never occlude
+inline constexpr float hole_limit = -1e20f;     // what is below has a hole in it
+inline constexpr float occluder_bias = 0.6f;    // a coarse occluder is its mean and this part of the way to its maximum
+inline constexpr float resampled_bias = 0.25f;  // the same of a height that is resampled between two
 
-// How much farther a level reaches than the one below. High levels see more sharply than their cells are placed, so
-// that they can do with less.
-[[nodiscard]] constexpr double growth(int level) { return level <= 2 ? 3.5 : 2.5; }
+// With so many steps cells of level 1 are one column wide instead of two. That takes the place of half of the steps.
+inline constexpr int narrow_from = 32;
+[[nodiscard]] constexpr bool is_narrow(int steps) { return steps >= narrow_from; }
+
+// Rows that level 0 looks at; more on maps that only level 0 sees as they are.
+[[nodiscard]] constexpr int near_rows(int steps, bool resampled) {
+    return !is_narrow(steps) ? steps : resampled ? steps / 4 * 3 : steps / 2;
+}
+
+// How much farther a level reaches than the one below. Level 1 has to see some way even with few steps, since the
+// levels above it stand too far apart to tell what is that near.
+[[nodiscard]] constexpr double growth(int level, int near, bool narrow) {
+    return level == 1 ? (std::max)(80.0 / near, narrow ? 4.0 : 3.0) : level == 2 ? 3.5 : 2.5;
+}
 
 // Heights without a border; but each row goes on for `overhang` cells as the edge says, so that packs may begin
 // anywhere.
@@ -57,10 +69,17 @@ struct ground {
     [[nodiscard]] std::size_t size() const { return std::size_t(row_step) * std::size_t(texels.y + 2 * halo.y); }
 };
 
+// Cells are twice as high as they are wide: what is seen changes faster across rays than along them.
 struct level {
-    plane occluders;      // what its cells look at: the level below, raised towards its maxima
-    plane origins;        // the cells' own heights: means
-    glm::ivec2 ratio{1};  // occluder cells in a cell along x and y, 1 or 2
+    plane occluders;        // what its cells look at: squares, raised towards their maxima
+    plane origins;          // the cells' own heights: means
+    int width = 1;          // of a cell, in columns of the base grid, a power of two
+    int stride = 1;         // the same in columns of occluders, 1 or 2
+    glm::ivec2 squares{0};  // as wide as cells
+    glm::ivec2 ratio{1};    // squares of the level below in one of this along x and y, 1 or 2
+
+    [[nodiscard]] int rows_a_cell() const { return 2 * stride; }  // of occluders
+    [[nodiscard]] int occluder_size() const { return width / stride; }
 };
 
 // How the levels of a map lie in memory; the same for all directions. Lengths are in units of `unit`.
@@ -69,17 +88,19 @@ struct pyramid {
     double unit = 1.0;        // length that counts as 1 inside: the smaller texel size
     glm::dvec2 spacing{1.0};  // between texels
     glm::dvec2 base{1.0};     // cells of the finest grid that can be halved, over texels; 1 but for odd maps that tile
+    bool narrow = false;      // level 1 looks at the map as it is, and no other level does
     bool copied = false;      // that grid is not level 0 itself
+    int near = 1;             // rows that level 0 looks at
     int count = 1;            // levels
     ground texels;
     std::array<level, most_levels> levels{};  // from 1 on
 
     [[nodiscard]] bool resampled() const { return base.x != 1.0 || base.y != 1.0; }
-    // The row in the middle of the map, counted in cells of a level.
-    [[nodiscard]] double middle(int level) const {
-        double row = 0.5 * (double(texels.texels.y) * base.y - 1.0);
-        for (int j = 0; j < level; ++j) row = 0.5 * (row - 0.5);
-        return row;
+    // Where a place on the base grid lies between columns or rows of cells that are so many of its own wide or high.
+    [[nodiscard]] static double in_cells(double place, int size) { return (place - 0.5 * (size - 1)) / size; }
+    // The row in the middle of the map, counted in rows of cells so many rows of the base grid high.
+    [[nodiscard]] double middle(int height) const {
+        return in_cells(0.5 * (double(texels.texels.y) * base.y - 1.0), height);
     }
 };
 
@@ -96,8 +117,9 @@ struct pyramid {
     p.unit = (std::min)(texel_size.x, texel_size.y);
     p.spacing = texel_size / p.unit;
     int halvings = 0;
-    while (((std::max)(extent.x, extent.y) >> halvings) >= 32) ++halvings;
-    p.count = 1 + halvings;
+    while (((std::max)(extent.x, extent.y) >> halvings) >= 16) ++halvings;
+    p.narrow = is_narrow(steps);
+    p.count = halvings <= 1 ? 1 : halvings + (p.narrow ? 1 : 0);
 
     const auto base_cells = [&](int texels) {
         const unsigned block = (std::min)(1u << halvings, std::bit_ceil(unsigned(texels)));
@@ -107,9 +129,10 @@ struct pyramid {
     p.copied = cells.x != extent.x || cells.y != extent.y || edge == edge_mode::open;
     if (edge == edge_mode::repeat || edge == edge_mode::mirror) p.base = glm::dvec2(cells) / glm::dvec2(extent);
 
+    p.near = near_rows(steps, p.resampled());
     const auto halo = [&](int texels) {
         const std::int64_t most = period(texels, edge);
-        return int(p.count == 1 ? most : (std::min)(std::int64_t(steps) + 1, most)) + border;
+        return int(p.count == 1 ? most : (std::min)(std::int64_t(p.near) + 1, most)) + border;
     };
     p.texels.texels = extent;
     // Rows begin at a multiple of the pack width, as far as the map's first column goes.
@@ -120,10 +143,14 @@ struct pyramid {
     glm::ivec2 fine = cells;
     for (int j = 1; j < p.count; ++j) {
         level& l = p.levels[std::size_t(j)];
-        l.ratio = {fine.x > 1 ? 2 : 1, fine.y > 1 ? 2 : 1};
-        l.occluders = {nullptr, fine, fine.x + overhang};
-        fine /= l.ratio;
-        l.origins = {nullptr, fine, fine.x + overhang};
+        l.width = p.narrow ? 1 << (j - 1) : 1 << j;
+        l.stride = l.width == 2 && j == 1 ? 2 : 1;
+        if (l.width > 1) l.ratio = {fine.x > 1 ? 2 : 1, fine.y > 1 ? 2 : 1};
+        l.squares = fine / l.ratio;
+        const glm::ivec2 seen = j == 1 ? fine : l.squares;
+        l.occluders = {nullptr, seen, seen.x + overhang};
+        l.origins = {nullptr, {l.squares.x, (l.squares.y + 1) / 2}, l.squares.x + overhang};
+        fine = l.squares;
     }
     return p;
 }
@@ -148,14 +175,21 @@ inline void fill_overhang(const plane& p, edge_mode edge) {
         }
 }
 
-// Scratch of a pyramid: its planes, and the maxima of two levels while it is built.
+// Means or maxima of a level's squares, while the next is built from them.
+[[nodiscard]] inline plane squares(const level& l, float* values) {
+    return {values, l.squares, l.squares.x + overhang};
+}
+// There are two of both: those of a level are in the place of those two levels below.
+[[nodiscard]] inline bool has_own_squares(const level& l) { return l.width == 2 || l.width == 4; }
+
+// Scratch of a pyramid: its planes, and the squares of two levels while it is built.
 inline void add_pyramid(const pyramid& p, scratch_layout& layout) {
     layout.add<float>(p.texels.size());
     for (int j = 1; j < p.count; ++j) {
         const level& l = p.levels[std::size_t(j)];
         if (j > 1 || p.copied) layout.add<float>(plane_floats(l.occluders));
         layout.add<float>(plane_floats(l.origins));
-        if (j <= 2) layout.add<float>(plane_floats(l.origins));
+        for (int i = 0; has_own_squares(l) && i < 2; ++i) layout.add<float>(plane_floats(squares(l, nullptr)));
     }
     layout.add<float>(std::size_t(p.texels.texels.x) + 2);
 }
@@ -253,13 +287,13 @@ inline void transpose_ground(const pyramid& from, const pyramid& to) {
     fill_halo(to.texels, to.edge);
 }
 
-// Interpolated height, raised towards the higher of the two as coarse occluders are, since a ridge between two samples
-// would be lost. A hole on either side makes a hole.
+// Interpolated height, raised towards the higher of the two, since a ridge between two samples would be lost. A hole on
+// either side makes a hole.
 [[nodiscard]] inline float resample(float a, float b, float part) {
     if (part == 0.0f) return a;
     if (a < hole_limit || b < hole_limit) return hole;
     const float mean = a + (b - a) * part;
-    return mean + occluder_bias * ((std::max)(a, b) - mean);
+    return mean + resampled_bias * ((std::max)(a, b) - mean);
 }
 
 // The finest grid that can be halved, where level 0 cannot: maps that end are continued to an even size, and maps that
@@ -321,9 +355,24 @@ void halve(const plane& mean, const plane& top, glm::ivec2 ratio, const plane& t
     }
 }
 
+// Means of cells two rows high and one column wide, of those that are not holes.
+template <bool Holes>
+void halve_rows(const plane& mean, const plane& to) {
+    for (int y = 0; y < to.cells.y; ++y) {
+        const float* upper = mean.row(2 * y);
+        const float* lower = mean.row((std::min)(2 * y + 1, mean.cells.y - 1));
+        float* row = to.row(y);
+        for (int x = 0; x < to.cells.x; ++x) {
+            row[x] = (upper[x] + lower[x]) * 0.5f;
+            if constexpr (Holes)
+                if (row[x] < hole_limit) row[x] = (std::max)(upper[x], lower[x]);
+        }
+    }
+}
+
 // Takes the memory of a pyramid, as add_pyramid counted it.
 struct pyramid_scratch {
-    std::array<float*, 2> maxima{};
+    std::array<float*, 2> means{}, maxima{};
     float* row = nullptr;
 };
 [[nodiscard]] inline pyramid_scratch carve_pyramid(pyramid& p, scratch_block& block) {
@@ -336,7 +385,9 @@ struct pyramid_scratch {
         else
             l.occluders.values = block.carve<float>(plane_floats(l.occluders));
         l.origins.values = block.carve<float>(plane_floats(l.origins));
-        if (j <= 2) s.maxima[std::size_t(j & 1)] = block.carve<float>(plane_floats(l.origins));
+        if (!has_own_squares(l)) continue;
+        s.means[std::size_t(j & 1)] = block.carve<float>(plane_floats(squares(l, nullptr)));
+        s.maxima[std::size_t(j & 1)] = block.carve<float>(plane_floats(squares(l, nullptr)));
     }
     s.row = block.carve<float>(std::size_t(p.texels.texels.x) + 2);
     return s;
@@ -350,20 +401,23 @@ inline void build_pyramid(const pyramid& p, bool holes, const pyramid_scratch& s
         if (j == 1) {
             if (p.copied) copy_base(p, l.occluders, scratch.row);
             mean = top = l.occluders;
-        } else {
-            for (int y = 0; y < l.occluders.cells.y; ++y) {
-                float* to = l.occluders.row(y);
-                const float* m = mean.row(y);
-                const float* t = top.row(y);
-                for (int x = 0; x < l.occluders.cells.x; ++x) to[x] = m[x] + occluder_bias * (t[x] - m[x]);
-            }
         }
-        const plane to_top{scratch.maxima[std::size_t(j & 1)], l.origins.cells, l.origins.row_step};
-        (holes ? halve<true> : halve<false>)(mean, top, l.ratio, l.origins, to_top);
+        if (l.width > 1) {
+            const plane to_mean = squares(l, scratch.means[std::size_t(j & 1)]),
+                        to_top = squares(l, scratch.maxima[std::size_t(j & 1)]);
+            (holes ? halve<true> : halve<false>)(mean, top, l.ratio, to_mean, to_top);
+            mean = to_mean;
+            top = to_top;
+        }
+        (holes ? halve_rows<true> : halve_rows<false>)(mean, l.origins);
         fill_overhang(l.origins, p.edge);
+        for (int y = 0; j > 1 && y < l.occluders.cells.y; ++y) {
+            float* to = l.occluders.row(y);
+            const float* m = mean.row(y);
+            const float* t = top.row(y);
+            for (int x = 0; x < l.occluders.cells.x; ++x) to[x] = m[x] + occluder_bias * (t[x] - m[x]);
+        }
         if (j > 1 || p.copied) fill_overhang(l.occluders, p.edge);
-        mean = l.origins;
-        top = to_top;
     }
 }
 
