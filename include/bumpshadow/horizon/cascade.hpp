@@ -12,6 +12,7 @@
 
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/height_map.hpp>
+#include <bumpshadow/horizon/cascade_build.hpp>
 #include <bumpshadow/horizon/cascade_cells.hpp>
 #include <bumpshadow/horizon/cascade_levels.hpp>
 #include <bumpshadow/horizon/cascade_texels.hpp>

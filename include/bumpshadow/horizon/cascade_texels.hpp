@@ -133,14 +133,22 @@ private:
         const auto at = [&](int i) { return to.row(bearing_, x_ + i - origin.y) + (first_ - origin.x); };
         constexpr int pitch = strip + chunk;
         int i = 0;
-        if (rows == block_rows)
-            for (; i + simd::width <= count_; i += simd::width)
-                for (int k = 0; k < block_rows; k += simd::width) {
+        // Rows before the first that begins a cache line of the output are not a multiple of the pack width.
+        const int single = rows % simd::width;
+        const int first = rows == limit_ ? single : 0, end = first + rows - single;
+        if (end > first)
+            for (; i + simd::width <= count_; i += simd::width) {
+                for (int k = first; k < end; k += simd::width) {
                     simd::pack square[simd::width];
                     for (int n = 0; n < simd::width; ++n) square[n] = simd::load(from + (k + n) * pitch + i);
                     simd::transpose(square);
                     for (int n = 0; n < simd::width; ++n) simd::stream(at(i + n) + k, square[n]);
                 }
+                for (int n = i; n < i + simd::width; ++n) {
+                    for (int k = 0; k < first; ++k) at(n)[k] = from[k * pitch + n];
+                    for (int k = end; k < rows; ++k) at(n)[k] = from[k * pitch + n];
+                }
+            }
         for (; i < count_; ++i)
             for (int k = 0; k < rows; ++k) at(i)[k] = from[k * pitch + i];
     }
