@@ -22,11 +22,12 @@
 
 // The fast method: horizons of unlimited range at a constant cost a sample.
 //
-// Near occluders are looked at texel by texel. Farther ones are found for cells of 2, 4, 8 ... texels, each level
-// reaching several times as far as the one before and looking at heights averaged over half its own cell. What a cell
-// passes down is not a slope but its occluder, as the pair a = H / t, b = 1 / t of the occluder's height H and distance
-// t: the slope that it makes for a height h is a - b h, so that pairs may be interpolated between cells and still give
-// the right slope for each texel's own height.
+// Near occluders are looked at texel by texel. Farther ones are found for cells that are 2, 4, 8 ... texels wide (1, 2,
+// 4
+// ... with many steps) and twice as high, each level reaching several times as far as the one before and looking at
+// texels or, above level 1, at squares as wide as its cells. What a cell passes down is not a slope but its occluder,
+// as the pair a = H / t, b = 1 / t of the occluder's height H and distance t: the slope that it makes for a height h is
+// a - b h, so that pairs may be interpolated between cells and still give the right slope for each texel's own height.
 
 namespace bumpshadow {
 
@@ -68,7 +69,7 @@ template <height_sample Sample>
 
 // Bakes horizons of a height map in any list of directions.
 //   out: slopes [direction][y][x] of the region; distances of the occluders on request (options)
-//   options.steps: how many texels are looked at one by one, the knob of error against run time; README has a table
+//   options.steps: the knob of error against run time; README has a table
 // Accuracy: elevation error against exact with 15 and with 48 steps, mean / 99th percentile in degrees: bricks 0.091 /
 // 1.2 and 0.021 / 0.37, roof tiles 0.13 / 1.8 and 0.025 / 0.47, rock 0.072 / 0.72 and 0.018 / 0.22. Heights are kept as
 // floats: the slope at distance t is off by up to |height - datum| / t * 2^-22 besides.

@@ -88,7 +88,7 @@ struct pyramid {
     double unit = 1.0;        // length that counts as 1 inside: the smaller texel size
     glm::dvec2 spacing{1.0};  // between texels
     glm::dvec2 base{1.0};     // cells of the finest grid that can be halved, over texels; 1 but for odd maps that tile
-    bool narrow = false;      // level 1 looks at the map as it is, and no other level does
+    bool narrow = false;      // cells of level 1 are one column wide instead of two
     bool copied = false;      // that grid is not level 0 itself
     int near = 1;             // rows that level 0 looks at
     int count = 1;            // levels
@@ -144,7 +144,7 @@ struct pyramid {
     for (int j = 1; j < p.count; ++j) {
         level& l = p.levels[std::size_t(j)];
         l.width = p.narrow ? 1 << (j - 1) : 1 << j;
-        l.stride = l.width == 2 && j == 1 ? 2 : 1;
+        l.stride = j == 1 ? l.width : 1;  // level 1 looks at the base grid itself
         if (l.width > 1) l.ratio = {fine.x > 1 ? 2 : 1, fine.y > 1 ? 2 : 1};
         l.squares = fine / l.ratio;
         const glm::ivec2 seen = j == 1 ? fine : l.squares;
