@@ -31,19 +31,19 @@ inline constexpr float hole_limit = -1e20f;     // what is below has a hole in i
 inline constexpr float occluder_bias = 0.6f;    // a coarse occluder is its mean and this part of the way to its maximum
 inline constexpr float resampled_bias = 0.25f;  // the same of a height that is resampled between two
 
-// With so many steps cells of level 1 are one column wide instead of two. That takes the place of half of the steps.
+// With so many steps cells of level 1 are one column wide instead of two. That takes the place of many of the steps.
 inline constexpr int narrow_from = 32;
 [[nodiscard]] constexpr bool is_narrow(int steps) { return steps >= narrow_from; }
 
 // Rows that level 0 looks at; more on maps that only level 0 sees as they are.
 [[nodiscard]] constexpr int near_rows(int steps, bool resampled) {
-    return !is_narrow(steps) ? steps : resampled ? steps / 4 * 3 : steps / 2;
+    return !is_narrow(steps) ? steps : resampled ? steps / 4 * 3 : steps * 7 / 12;
 }
 
 // How much farther a level reaches than the one below. Level 1 has to see some way even with few steps, since the
 // levels above it stand too far apart to tell what is that near.
 [[nodiscard]] constexpr double growth(int level, int near, bool narrow) {
-    return level == 1 ? (std::max)(80.0 / near, narrow ? 5.0 : 3.0) : level == 2 ? 3.5 : 2.5;
+    return level == 1 ? (std::max)(80.0 / near, narrow ? 3.3 : 3.0) : level == 2 ? 3.5 : 2.5;
 }
 
 // Heights without a border; but each row goes on for `overhang` cells as the edge says, so that packs may begin
