@@ -54,9 +54,9 @@ inline constexpr int most_steps = 65536;
 
 // What every method that bakes horizons takes besides heights, directions and output.
 struct bake_options {
-    // Cascade: texels that are looked at one by one, 1 to most_steps; error falls and cost grows with it. Other methods
-    // ignore it.
-    int steps = 15;
+    // Cascade: how far texels are looked at one by one, 7/12 as far from 32 on, where what follows is looked at finely;
+    // 1 to most_steps. Error falls and cost grows with it. Other methods ignore it.
+    int steps = 12;
     // Occluders farther than this are left out, in the unit of texel_size.
     double radius = std::numeric_limits<double>::infinity();
     // Principal curvatures of the base surface along x and y, in 1/unit. Along a bearing the base falls away by

@@ -230,7 +230,7 @@ TEST_CASE("cascade: a ramp keeps its slope uphill, and downhill where the map en
         check_slope(clamped, 1, p, 0.0, 0.001);
         check_slope(clamped, 2, p, 0.25, tolerance);
     }
-    check_within(trial(ramp.view(edge_mode::clamp), directions).against_exact(500), 0.05, 0.4, 1.0);
+    check_within(trial(ramp.view(edge_mode::clamp), directions).against_exact(500), 0.05, 0.6, 1.2);
 }
 
 TEST_CASE("cascade: the edge of a step is the horizon below it") {
@@ -343,7 +343,7 @@ TEST_CASE("cascade: any extent and edge against exact") {
             CAPTURE(extent.x);
             CAPTURE(extent.y);
             CAPTURE(int(edge));
-            check_within(trial(map.view(edge), whole).against_exact(150), 0.2, 2.5, 45.0);
+            check_within(trial(map.view(edge), whole).against_exact(150), 0.25, 4.0, 45.0);
         }
     }
     const list odd = shapes::directions(3, 0.29);
@@ -480,7 +480,7 @@ TEST_CASE("cascade: a curved base") {
                 bake_options options = usual;
                 options.curvature = curvature;
                 options.radius = radius;
-                check_within(trial(map.view(edge), many_directions(), options).against_exact(100), 0.2, 2.5, 45.0);
+                check_within(trial(map.view(edge), many_directions(), options).against_exact(100), 0.25, 3.5, 45.0);
             }
     // A flat map on a hollow base rises by k t / 2 as a slope, up to the radius; on a ball nothing is above 0.
     const auto flat = sampled({40, 40}, shapes::plane(0.0));
@@ -800,7 +800,7 @@ TEST_CASE("cascade: a shifted tiling map shifts its horizons") {
     };
     // By whole cells of the coarsest level these are the same, but not where lanes stand between them.
     for (const glm::ivec2 by : {glm::ivec2(64, 0), {32, 96}})
-        check_within(between(shifted_back(by), before), 0.02, 0.3, 5.0);
+        check_within(between(shifted_back(by), before), 0.02, 0.4, 5.0);
     // By anything else: cells are cut in other places, which is one more error of the size that there is anyway.
     for (const glm::ivec2 by : {glm::ivec2(1, 0), {5, 3}, {17, 100}})
         check_within(between(shifted_back(by), before), 0.06, 0.8, 20.0);

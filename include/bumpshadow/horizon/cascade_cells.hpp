@@ -22,16 +22,16 @@ namespace bumpshadow::cascade_detail {
 inline constexpr int strip =
     (std::max)(256, chunk);            // columns done together, so that the rows they look at stay cached
 inline constexpr int block_rows = 64;  // texels of several levels, and the output, are done together
+inline constexpr int batch = 8;        // rows of cells, which look at much the same rows of heights
 
 // Where the work of an item lies; one for each item that runs at a time.
 struct slot {
     looks near;
     far_row* far = nullptr;
-    const float** rows = nullptr;
     std::ptrdiff_t* lane_zero = nullptr;
     float* ring = nullptr;
     std::array<float*, 2> pair_values{};                               // of odd and of even levels
-    float *heights = nullptr, *slopes = nullptr, *inverses = nullptr;  // of a row of cells
+    float *heights = nullptr, *slopes = nullptr, *inverses = nullptr;  // of a batch of rows of cells
     float* parent_line = nullptr;
     std::size_t line_floats = 0;
     float* block = nullptr;  // rows of the transposed map, slopes and then distances
@@ -40,7 +40,8 @@ struct slot {
 // The most that any direction needs at level j of whole maps.
 struct far_size {
     int lanes = 0, rows = 0, window = 0;
-    int lean = 1;  // lanes a row, rounded up: 2 where a map that tiles is resampled more along rows than across
+    int rows_a_cell = 2;
+    int lean = 2;  // lanes a row, rounded up: twice as many where a map that tiles is resampled more along rows
 
     [[nodiscard]] std::size_t pair_floats() const {
         return std::size_t(lanes) * std::size_t(rows) + 4 * std::size_t(chunk);
@@ -49,18 +50,22 @@ struct far_size {
         return std::size_t(ring_lanes()) * std::size_t(window) + std::size_t(chunk);
     }
     // The rows of cells that look at a row are `lean` times as many lanes apart as rows, at the most.
-    [[nodiscard]] int ring_lanes() const { return lanes + lean * (std::min)(window / 2 + 1, rows) + 3 * simd::width; }
+    [[nodiscard]] int ring_lanes() const {
+        return lanes + lean * (std::min)(window / rows_a_cell + 1, rows) + 3 * simd::width;
+    }
 };
-[[nodiscard]] inline far_size size_far(const pyramid& p, int level, int steps) {
+
+[[nodiscard]] inline far_size size_far(const pyramid& p, int level) {
     const plane& cells = p.levels[std::size_t(level)].origins;
     far_size s;
-    s.lanes = lanes_for(cells.cells.x + 16.0) + lanes_for(0.0);
+    s.lanes = lanes_for(cells.cells.x + 32.0) + lanes_for(0.0);
     s.rows = cells.cells.y + 10;
-    s.lean = p.base.x > p.base.y ? 2 : 1;
-    double rows = 2.0 * steps * p.base.y;
-    for (int j = 1; j <= level; ++j) rows *= 0.5 * growth(j);
+    s.rows_a_cell = p.levels[std::size_t(level)].rows_a_cell();
+    s.lean = p.base.x > p.base.y ? 4 : 2;
+    double rows = p.near * p.base.y / p.levels[std::size_t(level)].occluder_size();
+    for (int j = 1; j <= level; ++j) rows *= growth(j, p.near, p.narrow);
     rows += 4.0;
-    s.window = level == p.count - 1 ? most_rows : int((std::min)(rows, double(most_rows)));
+    s.window = (level == p.count - 1 ? most_rows : int((std::min)(rows, double(most_rows)))) + batch * s.rows_a_cell;
     return s;
 }
 
@@ -76,12 +81,11 @@ void for_arrays(const frames& both, slot& s, int steps, Array&& array) {
     array(s.near.columns, most);
     array(s.near.insides, most);
     array(s.far, std::size_t(most_rows));
-    array(s.rows, std::size_t(most_rows));
-    array(s.lane_zero, std::size_t(most_rows));
+    array(s.lane_zero, 2 * std::size_t(most_rows + 4 * batch));
     std::size_t ring = 0, line = 2 * strip, pair_values[2] = {};
     for (const pyramid& p : both)
         for (int level = 1; level < p.count; ++level) {
-            const far_size size = size_far(p, level, steps);
+            const far_size size = size_far(p, level);
             ring = (std::max)(ring, size.ring_floats());
             line = (std::max)(line, std::size_t(size.ring_lanes()));
             std::size_t& values = pair_values[level & 1];
@@ -91,13 +95,14 @@ void for_arrays(const frames& both, slot& s, int steps, Array&& array) {
     array(s.pair_values[0], pair_values[0]);
     array(s.pair_values[1], pair_values[1]);
     s.line_floats = line + 4 * std::size_t(chunk);
-    for (float** l : {&s.heights, &s.slopes, &s.inverses}) array(*l, s.line_floats);
+    for (float** l : {&s.heights, &s.slopes, &s.inverses}) array(*l, batch * s.line_floats);
     array(s.parent_line, 2 * s.line_floats);
     array(s.block, 2 * std::size_t(block_rows) * std::size_t(strip + chunk));
 }
 
 [[nodiscard]] inline double level_row_step(const pyramid& p, const ray& r, int level) {
-    return std::abs(r.step.y) * p.base.y / double(1 << (level - 1));  // rows of its occluders a unit of length
+    return std::abs(r.step.y) * p.base.y /
+           p.levels[std::size_t(level)].occluder_size();  // rows of its occluders a unit of length
 }
 
 // Finds what the cells of a level see at distances in (from, to], from row to row.
@@ -111,7 +116,8 @@ public:
           down_(r.step.y > 0.0),
           found_(found),
           s_(s),
-          bring_{parent, {0.5, -0.25, 0.0}, 0.5, 0.5, s.parent_line, s.line_floats},
+          bring_{parent, {0.5, -0.25, 0.0}, 0.5,          0.5, 4.0 * l_.width / (r.step.y * p.base.y), to,
+                 r.bend, s.parent_line,     s.line_floats},
           row_(found.at.first_row) {
         // The n-th row on is n - 1/2 rows away, since a cell's center lies between two rows.
         const double row_step = level_row_step(p, r, j);
@@ -125,8 +131,9 @@ public:
             const double t = ends && first_ + n == last ? to : (double(first_ + n) - 0.5) / row_step;
             s_.far[n] = {float(1.0 / t), float(-r.bend * t)};
         }
-        window_ = count_ + 2;
-        const int rows_together = (std::min)(window_ / 2 + 1, found.at.rows);
+        const int ratio = l_.rows_a_cell();
+        window_ = count_ + 2 + ratio * (batch - 1);
+        const int rows_together = (std::min)((count_ + 2) / ratio + 1, found.at.rows);
         const int drift = int(std::ceil(std::abs(found.at.tangent) * rows_together));
         stride_ = found.at.count + (drift + 2 * simd::width) / simd::width * simd::width;
         made_ = (std::min)(row_on(row_, 0), row_on(row_, count_ - 1));
@@ -135,58 +142,90 @@ public:
     // Goes on up to row `end`, or to the last.
     void advance(std::int64_t end) {
         const lattice& at = found_.at;
-        for (end = (std::min)(end, std::int64_t(at.first_row) + at.rows); row_ < end; ++row_) {
-            const std::int64_t lane = at.first_lane(row_);
-            if (count_ > 0) find_rows(lane);
-            sample_row<1>(l_.origins, edge_, row_, lane, at.tangent * (double(row_) - at.middle), at.count, s_.heights);
-            look_far(s_.rows, s_.far, first_, count_, at.count, s_.heights, s_.slopes, s_.inverses);
-            keep(lane);
+        end = (std::min)(end, std::int64_t(at.first_row) + at.rows);
+        while (row_ < end) {
+            const int rows = int((std::min)(end - row_, std::int64_t(batch)));
+            look(rows);
+            for (int r = 0; r < rows; ++r, ++row_) keep(at.first_lane(row_), std::size_t(r) * s_.line_floats);
         }
     }
 
 private:
     // Row that the cells of a row see as their n-th.
     [[nodiscard]] std::int64_t row_on(std::int64_t row, std::int64_t n) const {
-        return down_ ? 2 * row + first_ + n : 2 * row + 1 - first_ - n;
+        const std::int64_t ratio = l_.rows_a_cell(), half = ratio / 2;
+        return down_ ? ratio * row + half - 1 + first_ + n : ratio * row + half - first_ - n;
     }
     // First lane of row m that any cells look at.
     [[nodiscard]] std::int64_t first_lane_of(std::int64_t m) const {
         const lattice& at = found_.at;
         const std::int64_t last_row = at.first_row + at.rows - 1, last = first_ + count_ - 1;
-        const std::int64_t a = down_ ? m - last : m - 1 + first_, b = down_ ? m - first_ : m - 1 + last;
-        return (std::min)(at.first_lane(std::clamp(a >> 1, std::int64_t(at.first_row), last_row)),
-                          at.first_lane(std::clamp((b + 1) >> 1, std::int64_t(at.first_row), last_row)));
+        const int ratio = l_.rows_a_cell(), shift = l_.stride;  // ratio is 1 << shift
+        const std::int64_t a = down_ ? m - ratio / 2 + 1 - last : m - ratio / 2 + first_,
+                           b = down_ ? m - ratio / 2 + 1 - first_ : m - ratio / 2 + last;
+        return (std::min)(at.first_lane(std::clamp(a >> shift, std::int64_t(at.first_row), last_row)),
+                          at.first_lane(std::clamp((b + ratio - 1) >> shift, std::int64_t(at.first_row), last_row)));
     }
 
-    // Rows of heights on lanes are kept, in a ring, as long as a row of cells looks at them: rows made_ - window_ and
-    // on.
-    void find_rows(std::int64_t lane) {
-        const double tangent = found_.at.tangent, middle = 2.0 * found_.at.middle + 0.5;
-        const std::int64_t near = row_on(row_, 0), end = (std::max)(near, row_on(row_, count_ - 1)) + 1;
+    // Looks from a batch of rows, from some lanes of all of them at a time, so that the heights there stay cached.
+    void look(int rows) {
+        const lattice& at = found_.at;
+        std::int64_t lanes[batch], begin = std::numeric_limits<std::int64_t>::max(), end = -begin;
+        std::ptrdiff_t const* seen[batch] = {};
+        if (count_ > 0) make_rows(row_ + rows - 1);
+        for (int r = 0; r < rows; ++r) {
+            const std::int64_t row = row_ + r;
+            lanes[r] = at.first_lane(row);
+            begin = (std::min)(begin, lanes[r]);
+            end = (std::max)(end, lanes[r] + at.count);
+            if (count_ > 0) {
+                int slot = next_slot_ - int(made_ - row_on(row, 0));
+                if (slot < 0) slot += window_;
+                seen[r] = s_.lane_zero + (down_ ? slot : slot + window_);
+            }
+            sample_row<1>(l_.origins, edge_, row, lanes[r], at.tangent * (double(row) - at.middle), at.count,
+                          s_.heights + std::size_t(r) * s_.line_floats);
+        }
+        for (std::int64_t lane = begin; lane < end; lane += chunk)
+            for (int r = 0; r < rows; ++r) {
+                const std::int64_t from = (std::max)(lane, lanes[r]),
+                                   to = (std::min)(lane + chunk, lanes[r] + at.count);
+                if (from >= to) continue;
+                const std::size_t i = std::size_t(r) * s_.line_floats + std::size_t(from - lanes[r]);
+                look_far({s_.ring, seen[r], down_ ? 1 : -1, from}, s_.far, first_, count_, int(to - from) / simd::width,
+                         s_.heights + i, s_.slopes + i, s_.inverses + i);
+            }
+    }
+
+    // Rows of heights on lanes are kept, in a ring, as long as a batch of rows of cells looks at them: rows made_ -
+    // window_ and on. Where their lane 0 lies is noted twice, so that rows that follow each other do so there, too.
+    void make_rows(std::int64_t last_row) {
+        const int stride = l_.stride;
+        const double tangent = 0.5 * found_.at.tangent,
+                     middle = 2.0 * stride * found_.at.middle + 0.5 * (2.0 * stride - 1.0);
+        const std::int64_t end = (std::max)(row_on(last_row, 0), row_on(last_row, count_ - 1)) + 1;
         for (; made_ < end; ++made_) {
             const std::int64_t first = first_lane_of(made_);
-            sample_row<2>(l_.occluders, edge_, made_, 2 * first, 0.5 + tangent * (double(made_) - middle), stride_,
-                          s_.ring + std::ptrdiff_t(next_slot_) * stride_);
-            s_.lane_zero[next_slot_] = std::ptrdiff_t(next_slot_) * stride_ - first;
+            (stride == 2 ? sample_row<2> : sample_row<1>)(l_.occluders, edge_, made_, stride * first,
+                                                          0.5 * (stride - 1) + tangent * (double(made_) - middle),
+                                                          stride_, s_.ring + std::ptrdiff_t(next_slot_) * stride_);
+            s_.lane_zero[next_slot_] = s_.lane_zero[next_slot_ + window_] =
+                std::ptrdiff_t(next_slot_) * stride_ - first;
             if (++next_slot_ == window_) next_slot_ = 0;
-        }
-        int slot_of_row = next_slot_ - int(made_ - near);
-        for (int n = 0; n < count_; ++n) {
-            if (slot_of_row < 0) slot_of_row += window_;
-            if (slot_of_row >= window_) slot_of_row -= window_;
-            s_.rows[n] = s_.ring + (s_.lane_zero[slot_of_row] + lane);
-            slot_of_row += down_ ? 1 : -1;
         }
     }
 
     // What the cells have seen, or their parents where that is higher, as pairs.
-    void keep(std::int64_t lane) {
+    //   line: where those of the row begin
+    void keep(std::int64_t lane, std::size_t line) {
         float* const a = found_.a + found_.offset(lane, row_);
         float* const b = found_.b + found_.offset(lane, row_);
+        const float *const heights = s_.heights + line, *const slopes = s_.slopes + line,
+                           *const inverses = s_.inverses + line;
         const int count = found_.at.count;
         const auto keep_pack = [&](int i, bool have_parent, simd::pack parent_a, simd::pack parent_b) {
-            const simd::pack height = simd::load(s_.heights + i), slope = simd::load(s_.slopes + i);
-            simd::pack own_b = simd::load(s_.inverses + i);
+            const simd::pack height = simd::load(heights + i), slope = simd::load(slopes + i);
+            simd::pack own_b = simd::load(inverses + i);
             simd::pack own_a = simd::multiply_add(own_b, height, slope);
             if (have_parent) {
                 const simd::pack theirs = slope_of(parent_a, parent_b, height);
@@ -203,7 +242,7 @@ private:
             for (int i = 0; i < count; i += simd::width) keep_pack(i, false, simd::splat(0.0f), simd::splat(0.0f));
         if constexpr (Holes)
             for (int i = 0; i < count; ++i)
-                if (s_.heights[i] < hole_limit || a[i] < hole_limit) a[i] = hole, b[i] = 0.0f;
+                if (heights[i] < hole_limit || a[i] < hole_limit) a[i] = hole, b[i] = 0.0f;
     }
 
     const level& l_;

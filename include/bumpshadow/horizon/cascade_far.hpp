@@ -117,6 +117,9 @@ struct interpolation {
     const pairs* parent = nullptr;
     parent_lanes lanes;
     double row_scale = 0.5, row_start = 0.5;
+    double spacing = 1.0;   // how far a ray goes from a row of the parent's to the next, less than 0 if upwards
+    double nearest = 1.0;   // distance from which on the parent looked
+    double bend = 0.0;      // of the ray
     float* line = nullptr;  // scratch: twice line_floats, each as many as a row of the parent has, and two chunks
     std::size_t line_floats = 0;
 
@@ -127,22 +130,22 @@ struct interpolation {
         // Rounding must not depend on which lane is the first.
         const double shift = lanes.shift(row), part = shift - std::floor(shift);
         const int half = part < 0.5 ? 0 : 1;
-        const bool twice = !Holes && lanes.scale == 0.5;
-        const std::int64_t left = twice ? std::int64_t(std::floor(shift)) + (lane >> 1) + ((lane & 1) != 0 ? half : 0)
-                                        : place_under(lane, shift).cell;
+        const bool twice = !Holes && lanes.scale == 0.5, once = !Holes && lanes.scale == 1.0;
+        const std::int64_t left = once    ? std::int64_t(std::floor(shift)) + lane
+                                  : twice ? std::int64_t(std::floor(shift)) + (lane >> 1) + ((lane & 1) != 0 ? half : 0)
+                                          : place_under(lane, shift).cell;
         const std::ptrdiff_t upper = parent->offset(left, std::int64_t(above));
         const std::ptrdiff_t lower = parent->offset(left, std::int64_t(above) + 1);
-        const float below = float(y - above);
+        const rows_between rows(*this, y - above);
         if constexpr (Holes) {
-            with_holes(upper - left, lower - left, below, lane, shift, count, visit);
+            with_holes(upper - left, lower - left, rows, lane, shift, count, visit);
             return;
         }
-        const simd::pack v = simd::splat(below), w = simd::splat(1.0f - below);
-        const auto blend_rows = [&](const float* from, int i) {
-            return simd::multiply_add(simd::load(from + lower + i), v, simd::multiply(simd::load(from + upper + i), w));
-        };
+        const auto blend_rows = [&](int i) { return rows.blend(*parent, upper + i, lower + i); };
         const float even_part = float(part), odd_part = float(part + 0.5 - half);
-        if (!twice)
+        if (once)
+            move(blend_rows, float(part), count, visit);
+        else if (!twice)
             stretch(blend_rows, left, lane, shift, count, visit);
         else if ((lane & 1) == 0)
             (half == 0 ? double_up<0>(blend_rows, even_part, odd_part, count, visit)
@@ -153,6 +156,44 @@ struct interpolation {
     }
 
 private:
+    struct pair {
+        simd::pack a, b;
+    };
+
+    // A row between two of the parent's, and what their occluders are there: at t - u if they are at t, so that a pair
+    // is to be multiplied by t / (t - u), or nearly 1 + x + x^2 + x^3 where x = u b. The part of a that comes from the
+    // bend is another, by bend * u as much on top of that.
+    struct rows_between {
+        float weight[2], ahead[2], bent[2], rest = 0.0f;  // of the row above and the row below
+
+        rows_between(const interpolation& i, double below) {
+            for (int k = 0; k < 2; ++k) {
+                const double way = k == 0 ? below : below - 1.0, most = 0.5 * i.nearest;
+                const double u = std::clamp(way * i.spacing, -most, most), w = k == 0 ? 1.0 - below : below;
+                weight[k] = float(w);
+                ahead[k] = float(u);
+                bent[k] = float(u * i.bend);
+                rest += weight[k] * bent[k];
+            }
+        }
+        [[nodiscard]] static simd::pack factor(simd::pack x) {
+            const simd::pack one = simd::splat(1.0f);
+            return simd::multiply_add(x, simd::multiply_add(x, simd::multiply_add(x, one, one), one), one);
+        }
+        [[nodiscard]] pair blend(const pairs& from, std::ptrdiff_t upper, std::ptrdiff_t lower) const {
+            const simd::pack b0 = simd::load(from.b + upper), b1 = simd::load(from.b + lower);
+            const simd::pack f0 =
+                simd::multiply(factor(simd::multiply(b0, simd::splat(ahead[0]))), simd::splat(weight[0]));
+            const simd::pack f1 =
+                simd::multiply(factor(simd::multiply(b1, simd::splat(ahead[1]))), simd::splat(weight[1]));
+            simd::pack a = simd::multiply_add(f0, simd::splat(bent[0]), simd::splat(rest));
+            a = simd::multiply_add(f1, simd::splat(bent[1]), a);
+            a = simd::multiply_add(simd::load(from.a + upper), f0, a);
+            return {simd::multiply_add(simd::load(from.a + lower), f1, a),
+                    simd::multiply_add(b1, f1, simd::multiply(b0, f0))};
+        }
+    };
+
     // Where a lane lies between the parent's.
     [[nodiscard]] place place_under(std::int64_t lane, double shift) const {
         const double x = lanes.scale * double(lane) + shift;
@@ -168,12 +209,11 @@ private:
     // Two lanes to each of the parent's: lane 2 i lies `first` after parent i, and lane 2 i + 1 half a cell on, which
     // is `second` after parent i + Step.
     template <int Step, class Blend, class Visit>
-    void double_up(const Blend& blend_rows, float first, float second, int count, Visit& visit) const {
+    void double_up(const Blend& blend_rows, float first, float second, int count, const Visit& visit) const {
         const simd::pack even_part = simd::splat(first), odd_part = simd::splat(second);
-        simd::pack a = blend_rows(parent->a, 0), b = blend_rows(parent->b, 0);
+        auto [a, b] = blend_rows(0);
         for (int i = 0; 2 * i < count; i += simd::width) {
-            const simd::pack after_a = blend_rows(parent->a, i + simd::width),
-                             after_b = blend_rows(parent->b, i + simd::width);
+            const auto [after_a, after_b] = blend_rows(i + simd::width);
             const auto odd = [&](simd::pack here, simd::pack next, simd::pack after) {
                 return Step == 0 ? between(here, next, odd_part) : between(next, simd::next<2>(here, after), odd_part);
             };
@@ -188,14 +228,28 @@ private:
         }
     }
 
+    // A lane to each of the parent's, so far after it.
+    template <class Blend, class Visit>
+    void move(const Blend& blend_rows, float after, int count, const Visit& visit) const {
+        const simd::pack part = simd::splat(after);
+        auto [a, b] = blend_rows(0);
+        for (int i = 0; i < count; i += simd::width) {
+            const auto [after_a, after_b] = blend_rows(i + simd::width);
+            visit(i, between(a, simd::next(a, after_a), part), between(b, simd::next(b, after_b), part));
+            a = after_a;
+            b = after_b;
+        }
+    }
+
     template <class Blend, class Visit>
     void stretch(const Blend& blend_rows, std::int64_t left, std::int64_t lane, double shift, int count,
-                 Visit& visit) const {
+                 const Visit& visit) const {
         const int wanted = int(lanes.scale * count) + 3;
         float *const line_a = line, *const line_b = line + line_floats;
         for (int i = 0; i < wanted; i += simd::width) {
-            simd::store(line_a + i, blend_rows(parent->a, i));
-            simd::store(line_b + i, blend_rows(parent->b, i));
+            const auto [a, b] = blend_rows(i);
+            simd::store(line_a + i, a);
+            simd::store(line_b + i, b);
         }
         for (int i = 0; i < count; i += simd::width) {
             float left_a[simd::width], right_a[simd::width], left_b[simd::width], right_b[simd::width],
@@ -216,8 +270,8 @@ private:
     // Parents that saw nothing do not take part, and where none is left nothing is seen.
     //   upper, lower: where the parent's lane 0 lies, or would
     template <class Visit>
-    void with_holes(std::ptrdiff_t upper, std::ptrdiff_t lower, float below, std::int64_t lane, double shift, int count,
-                    Visit& visit) const {
+    void with_holes(std::ptrdiff_t upper, std::ptrdiff_t lower, const rows_between& rows, std::int64_t lane,
+                    double shift, int count, const Visit& visit) const {
         for (int i = 0; i < count; i += simd::width) {
             float a[simd::width], b[simd::width];
             for (int k = 0; k < simd::width; ++k) {
@@ -227,12 +281,13 @@ private:
                 float sum = 0.0f, sum_a = 0.0f, sum_b = 0.0f;
                 for (int corner = 0; corner < 4; ++corner) {
                     const std::ptrdiff_t at = (corner < 2 ? upper : lower) + cell + (corner & 1);
-                    const float weight =
-                        ((corner & 1) != 0 ? right : 1.0f - right) * (corner < 2 ? 1.0f - below : below);
+                    const int r = corner / 2;
+                    const float weight = ((corner & 1) != 0 ? right : 1.0f - right) * rows.weight[r];
                     if (parent->a[at] < hole_limit || weight == 0.0f) continue;
+                    const float x = parent->b[at] * rows.ahead[r], factor = 1.0f + x * (1.0f + x * (1.0f + x));
                     sum += weight;
-                    sum_a += weight * parent->a[at];
-                    sum_b += weight * parent->b[at];
+                    sum_a += weight * (parent->a[at] * factor + rows.bent[r] * (1.0f + factor));
+                    sum_b += weight * parent->b[at] * factor;
                 }
                 a[k] = sum > 0.0f ? sum_a / sum : hole;
                 b[k] = sum > 0.0f ? sum_b / sum : 0.0f;
@@ -257,11 +312,21 @@ struct far_row {
 // from a cell's height to those of its texels.
 inline constexpr int alone_before = 16, in_pairs_before = 32;
 
+// Rows of heights on the same lanes, one after the other.
+struct sampled_rows {
+    const float* values;
+    const std::ptrdiff_t* lane_zero;  // of the n-th row at n * step
+    int step;
+    std::int64_t lane;
+
+    [[nodiscard]] const float* row(int n) const { return values + (lane_zero[step * n] + lane); }
+};
+
 // Looks from Packs packs of cells at rows of heights on the same lanes. heights: the cells' own; first: n of the first
 // row
 template <int Packs>
-inline void look_far_from(const float* const* rows, const far_row* far, std::int64_t first, int count,
-                          std::ptrdiff_t lane, const float* heights, float* slopes, float* inverses) {
+inline void look_far_from(const sampled_rows& rows, const far_row* far, std::int64_t first, int count,
+                          const float* heights, float* slopes, float* inverses) {
     using simd::pack;
     pack depth[Packs], best[Packs], best_inverse[Packs];
     for (int u = 0; u < Packs; ++u) {
@@ -273,7 +338,7 @@ inline void look_far_from(const float* const* rows, const far_row* far, std::int
     const auto slope = [&](int i, int u) {
         const pack inverse = simd::splat(far[i].inverse);
         const pack below = simd::multiply_add(depth[u], inverse, simd::splat(far[i].bend));
-        return simd::multiply_add(simd::load(rows[i] + lane + u * simd::width), inverse, below);
+        return simd::multiply_add(simd::load(rows.row(i) + u * simd::width), inverse, below);
     };
     const auto look_in_groups = [&]<int Size>(std::int64_t before) {
         for (; n + Size <= count && first + n < before; n += Size) {
@@ -299,20 +364,14 @@ inline void look_far_from(const float* const* rows, const far_row* far, std::int
     }
 }
 
-// The same from `lanes` lanes, a multiple of the pack width.
-inline void look_far(const float* const* rows, const far_row* far, std::int64_t first, int count, int lanes,
+// The same from a chunk or less.
+inline void look_far(const sampled_rows& rows, const far_row* far, std::int64_t first, int count, int packs_there,
                      const float* heights, float* slopes, float* inverses) {
-    int lane = 0;
-    const auto look = [&]<int Packs>() {
-        look_far_from<Packs>(rows, far, first, count, lane, heights + lane, slopes + lane, inverses + lane);
-        lane += Packs * simd::width;
-    };
-    while (lane + chunk <= lanes) look.template operator()<packs>();
-    switch ((lanes - lane) / simd::width) {
-        case 3: return look.template operator()<3>();
-        case 2: return look.template operator()<2>();
-        case 1: return look.template operator()<1>();
-        default: return;
+    switch (packs_there) {
+        case 4: return look_far_from<4>(rows, far, first, count, heights, slopes, inverses);
+        case 3: return look_far_from<3>(rows, far, first, count, heights, slopes, inverses);
+        case 2: return look_far_from<2>(rows, far, first, count, heights, slopes, inverses);
+        default: return look_far_from<1>(rows, far, first, count, heights, slopes, inverses);
     }
 }
 

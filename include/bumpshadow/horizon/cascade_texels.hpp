@@ -44,7 +44,9 @@ struct reach {
     reach s;
     for (int j = 0; j < p.count; ++j) {
         const double from = j > 0 ? s.to[std::size_t(j) - 1] : 0.0;
-        const double wanted = j == p.count - 1 ? r.farthest : j == 0 ? steps / std::abs(r.step.y) : growth(j) * from;
+        const double wanted = j == p.count - 1 ? r.farthest
+                              : j == 0         ? p.near / std::abs(r.step.y)
+                                               : growth(j, p.near, p.narrow) * from;
         const double most =
             j == 0 ? double(most_looks(steps)) / std::abs(r.step.y) : double(most_rows) / level_row_step(p, r, j);
         s.to[std::size_t(j)] = (std::min)({wanted, r.farthest, from + most});
@@ -131,14 +133,22 @@ private:
         const auto at = [&](int i) { return to.row(bearing_, x_ + i - origin.y) + (first_ - origin.x); };
         constexpr int pitch = strip + chunk;
         int i = 0;
-        if (rows == block_rows)
-            for (; i + simd::width <= count_; i += simd::width)
-                for (int k = 0; k < block_rows; k += simd::width) {
+        // Rows before the first that begins a cache line of the output are not a multiple of the pack width.
+        const int single = rows % simd::width;
+        const int first = rows == limit_ ? single : 0, end = first + rows - single;
+        if (end > first)
+            for (; i + simd::width <= count_; i += simd::width) {
+                for (int k = first; k < end; k += simd::width) {
                     simd::pack square[simd::width];
                     for (int n = 0; n < simd::width; ++n) square[n] = simd::load(from + (k + n) * pitch + i);
                     simd::transpose(square);
                     for (int n = 0; n < simd::width; ++n) simd::stream(at(i + n) + k, square[n]);
                 }
+                for (int n = i; n < i + simd::width; ++n) {
+                    for (int k = 0; k < first; ++k) at(n)[k] = from[k * pitch + n];
+                    for (int k = end; k < rows; ++k) at(n)[k] = from[k * pitch + n];
+                }
+            }
         for (; i < count_; ++i)
             for (int k = 0; k < rows; ++k) at(i)[k] = from[k * pitch + i];
     }
@@ -155,13 +165,19 @@ template <bool Holes, bool Track>
 void look_from_texels(const pyramid& p, const ray& r, rectangle texels, float floor, const pairs* parent,
                       double tangent, slot& s, writer& to) {
     const glm::dvec2 base = p.base;
-    const interpolation bring{parent,
-                              {0.5 * base.x, 0.25 * base.x - 0.5 - 0.5 * tangent * (0.5 * base.y - 0.5 - p.middle(0)),
-                               -0.5 * tangent * base.y},
-                              0.5 * base.y,
-                              1.0 / base.y - 0.5,
-                              s.parent_line,
-                              s.line_floats};
+    const int width = p.levels[1].width, height = 2 * width;
+    const interpolation bring{
+        parent,
+        {base.x / width,
+         pyramid::in_cells(0.5 * base.x - 0.5, width) - tangent * (0.5 * base.y - 0.5 - p.middle(1)) / width,
+         -tangent * base.y / width},
+        base.y / height,
+        0.5 * height / base.y - 0.5,
+        height / (r.step.y * base.y),
+        p.near / std::abs(r.step.y),
+        r.bend,
+        s.parent_line,
+        s.line_floats};
     const glm::ivec2 end = texels.origin + texels.extent;
     const bool open = Holes && p.edge == edge_mode::open;
     // Inverse of the distance at which a ray leaves an open map, on the side that it goes to; a quarter of it is added,
@@ -245,19 +261,26 @@ void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texe
     const double tangent = r.tangent() * p.base.x / p.base.y;
     glm::dvec2 first = (glm::dvec2(texels.origin) + 0.5) * p.base - 0.5;
     glm::dvec2 last = (glm::dvec2(texels.origin + texels.extent) - 0.5) * p.base - 0.5;
-    const double lean = (std::max)(std::abs(tangent), 1.0);  // columns between rows next to each other
     constexpr double rounding = 1e-9;  // so that no row is left out that a texel takes for the one above or below it
+    const double lean = (std::max)(std::abs(2.0 * tangent), 1.0);
     for (int i = 1; i <= range.top; ++i) {
-        first = {0.5 * first.x - 1.25 - lean, std::floor(0.5 * first.y - 0.25 - rounding)};
-        last = {0.5 * last.x + 1.75 + lean, std::floor(0.5 * last.y - 0.25 + rounding) + 1.0};
-        at[std::size_t(i)] = {
-            tangent, p.middle(i), first.x, int(first.y), int(last.y - first.y) + 1, lanes_for(last.x - first.x)};
+        const int width = i == 1 ? p.levels[1].width : 2, height = i == 1 ? 2 * width : 2;
+        first = {pyramid::in_cells(first.x, width) - 1.0 - lean,
+                 std::floor(pyramid::in_cells(first.y, height) - rounding)};
+        last = {pyramid::in_cells(last.x, width) + 2.0 + lean,
+                std::floor(pyramid::in_cells(last.y, height) + rounding) + 1.0};
+        at[std::size_t(i)] = {2.0 * tangent,
+                              p.middle(2 * p.levels[std::size_t(i)].width),
+                              first.x,
+                              int(first.y),
+                              int(last.y - first.y) + 1,
+                              lanes_for(last.x - first.x)};
     }
     // All of the levels above 1 first; then level 1 and the texels in step, so that what both look at is still cached.
     const auto pass = [&](int i, const pairs* parent) {
         pairs found{.at = at[std::size_t(i)]};
         found.a = s.pair_values[std::size_t(i & 1)] + chunk;
-        found.b = found.a + size_far(p, i, j.options.steps).pair_floats();
+        found.b = found.a + size_far(p, i).pair_floats();
         return std::pair(found, cells_pass<Holes>(p, i, r, range.to[std::size_t(i) - 1], range.to[std::size_t(i)],
                                                   parent, found, s));
     };
@@ -267,9 +290,10 @@ void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texe
         cells.advance(std::numeric_limits<std::int64_t>::max());
         parent = found;
     }
-    const double near = j.options.steps / std::abs(h.step.y);
-    choose_looks(r, p.texels, p.edge, range.to[0], near / 4.0, near / 8.0, Holes, most_looks(j.options.steps) - 2,
-                 s.near);
+    const double near = p.near / std::abs(h.step.y);
+    const double inside = p.narrow ? 1.0 / 3.0 : 0.25;  // part of it where more than rows is looked at
+    choose_looks(r, p.texels, p.edge, range.to[0], near * inside, 0.5 * near * inside, Holes,
+                 most_looks(j.options.steps) - 2, s.near);
     const float floor = never_negative ? 0.0f : hole;
     writer to(j, bearing, h.transposed, s.block);
     const auto look = [&](rectangle band, const pairs* above) {
@@ -288,7 +312,7 @@ void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texe
             const rectangle band{{texels.origin.x, texels.origin.y + y},
                                  {texels.extent.x, (std::min)(band_rows, texels.extent.y - y)}};
             const double last_row = (band.origin.y + band.extent.y - 0.5) * p.base.y - 0.5;
-            cells.advance(std::int64_t(std::floor(0.5 * last_row - 0.25 + rounding)) + 2);
+            cells.advance(std::int64_t(std::floor(pyramid::in_cells(last_row, 2 * p.levels[1].width) + rounding)) + 2);
             look(band, &found);
         }
     }
