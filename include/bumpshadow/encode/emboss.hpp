@@ -178,8 +178,7 @@ enum class emboss_passes : unsigned char {
     // pixels are texels, the same as three.
     two,
     // All in one pass: a sum that is clamped but not rounded, one rounding at the end. Within 2 steps of the others,
-    // and
-    // within 1 more for a colored light.
+    // and within 1 more for a colored light.
     one,
 };
 

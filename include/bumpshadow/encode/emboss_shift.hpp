@@ -22,8 +22,7 @@ namespace bumpshadow {
 //             which height(p + d) - height(p) correlates with the slope at p by sqrt(1/2) or more. A straight rise b
 //             texels wide gives 0.79 b, a wave of length l gives l / 4, and a sheer step 1.
 //   smallest  where the relief begins to show: half of the texels that change by a step of 8 bits or more for the
-//   largest
-//             shift do so.
+//             largest shift do so.
 struct emboss_shift_range {
     float smallest = 0.0f;
     float largest = 0.0f;

@@ -22,9 +22,8 @@
 
 // The fast method: horizons of unlimited range at a constant cost a sample.
 //
-// Near occluders are looked at texel by texel. Farther ones are found for cells that are 2, 4, 8 ... texels wide (1, 2,
-// 4
-// ... with many steps) and twice as high, each level reaching several times as far as the one before and looking at
+// Near occluders are looked at texel by texel. Farther ones are found for cells that are 2, 4, 8 ... texels wide (with
+// many steps 1, 2, 4 ...) and twice as high, each level reaching several times as far as the one before and looking at
 // texels or, above level 1, at squares as wide as its cells. What a cell passes down is not a slope but its occluder,
 // as the pair a = H / t, b = 1 / t of the occluder's height H and distance t: the slope that it makes for a height h is
 // a - b h, so that pairs may be interpolated between cells and still give the right slope for each texel's own height.

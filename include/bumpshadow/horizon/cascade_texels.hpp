@@ -12,6 +12,7 @@
 #include <glm/ext/vector_int2.hpp>
 
 #include <bumpshadow/height_map.hpp>
+#include <bumpshadow/horizon/cascade_build.hpp>
 #include <bumpshadow/horizon/cascade_cells.hpp>
 #include <bumpshadow/horizon/cascade_far.hpp>
 #include <bumpshadow/horizon/cascade_levels.hpp>

@@ -161,8 +161,7 @@ template <height_sample Sample>
 // Horizons as Lengyel bakes them: of the texels within 16 texels that are higher, the largest squared tangent in 32
 // directions; the sines of the five directions nearest to each output averaged.
 //   directions: in surface space (units of texel_size), at least one, of any length; the paper's are the eight
-//   multiples
-//       of 1/8 turn. Slice i of the output is direction i. All of them together cost little more than one.
+//       multiples of 1/8 turn. Slice i of the output is direction i. All of them together cost little more than one.
 //   out: slopes, [direction][y][x], of the region's extent: s / sqrt(1 - s^2), s the averaged sine. 0 where no texel is
 //       higher, never negative, at most 1000; no_horizon at holes
 //   options.radius: reach in the unit of texel_size; infinite, the default, stands for the paper's 16 texels

@@ -329,8 +329,7 @@ inline void volume_row(const tangent_volume& encoding, const const_texture& from
 
 // A shadow for shade.hpp.
 //   edge    shape of the shadow's edge
-//   radius  degrees; above 0, k is that of edge_for() at each pixel's own elevation of the light: for near lights, and
-//   for
+//   radius  degrees; above 0, k is that of edge_for() at each pixel's own elevation of the light: for near lights and
 //           curved surfaces
 template <class Encoding, class Textures = const_texture>
 struct encoded_shadow {

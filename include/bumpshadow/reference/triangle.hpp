@@ -40,8 +40,7 @@ struct pixel_light {
 };
 
 // lights: at the vertices, in tangent space, of lengths whose squares neither overflow nor vanish; for `light` they
-// have
-//   to be vectors to the light in one unit
+//   have to be vectors to the light in one unit
 // weights: the pixel's barycentric coordinates
 // most: where slopes are cut before they are interpolated; above the steepest horizon
 [[nodiscard]] inline pixel_light interpolate_light(const std::array<glm::vec3, 3>& lights, glm::vec3 weights,
