@@ -11,6 +11,8 @@
 #include <glm/ext/vector_double2.hpp>
 #include <glm/ext/vector_float2.hpp>
 
+#include <bumpshadow/choices.hpp>
+
 namespace bumpshadow {
 
 // A bearing is a direction in the surface as a fraction of a turn, in [0, 1): 0 along +x, 0.25 along +y.
@@ -202,9 +204,7 @@ template <bearing_scalar T>
     return bearing_detail::solve_odd_polynomial(bearing_detail::quintic_coefficients<T>, bearing);
 }
 
-// The functions by name, for settings that are chosen at run time. Octant without its phase.
-enum class bearing_function : unsigned char { exact, quintic, cubic, octant, diamond };
-
+// The functions by name.
 template <bearing_scalar T>
 [[nodiscard]] inline T to_bearing(bearing_function function, glm::vec<2, T> v) {
     switch (function) {

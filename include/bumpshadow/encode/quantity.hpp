@@ -4,17 +4,10 @@
 #include <cstdint>
 #include <limits>
 
+#include <bumpshadow/choices.hpp>
 #include <bumpshadow/status.hpp>
 
 namespace bumpshadow {
-
-// What of a horizon's elevation a texture stores. Any function that grows with the elevation serves, as long as the
-// light is compared in the same one; they differ in how well they interpolate between slices and spend their bits.
-enum class quantity : unsigned char {
-    slope,  // tangent (Forsyth)
-    sine,   // sine (Lengyel)
-    angle,  // the elevation itself
-};
 
 // The quantity with the slope that stands for 1. Horizons steeper than max_slope are stored as 1, those below 0 as 0.
 struct horizon_scale {

@@ -7,12 +7,12 @@ BUMPSHADOW_FUNCTION float bumpshadow_shadow_hard(float light, float horizon) {
     return light >= max(horizon, 0.0f) ? 1.0f : 0.0f;
 }
 
-// The next function for a light that is never below the surface, or does not shine there anyway.
+// clamp(k (light - horizon) + c, 0, 1), for a light that is never below the surface or does not shine there anyway.
 BUMPSHADOW_FUNCTION float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
     return clamp(min(k, 1e30f) * (light - horizon) + c, 0.0f, 1.0f);
 }
 
-// clamp(k (light - horizon) + c, 0, 1). c = 1: the edge lies inside the shadow (Lengyel 2019, equation 5.4); c = 0.5:
+// The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2019, equation 5.4); c = 0.5:
 // it is centered. k from 0 to infinity.
 BUMPSHADOW_FUNCTION float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
     return light >= 0.0f ? bumpshadow_shadow_soft_above(light, horizon, k, c) : 0.0f;

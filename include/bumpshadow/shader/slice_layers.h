@@ -33,7 +33,7 @@ BUMPSHADOW_FUNCTION float bumpshadow_grouped_horizon(vec4 values, float next_val
 
 // Layers that overlap by one slice, one fetch. x: layer; y: position from its first channel on, in [0, 3].
 BUMPSHADOW_FUNCTION vec2 bumpshadow_overlapping_layer(float position) {
-    // A little less than a third, for the same reason.
+    // A little less than a third, so that N finds the last layer.
     float layer = floor(position * 0.33333328f);
     return vec2(layer, position - 3.0f * layer);
 }
