@@ -150,10 +150,10 @@ void write_textures(const arguments& arguments, output_kind kind) {
                     name_of(arguments.horizons.how).c_str(), arguments.horizons.options.steps, json_of(map).c_str());
     else
         std::printf(
-            "%s: %d x %d texels as %s, %zu texture%s of %.3g bytes a texel, baked in %.3f s, packed in %.3f s\n",
+            "%s: %d x %d texels as %s, %zu texture%s of %.3g bytes a texel, baked in %.3f s, packed in %.3f s%s\n",
             arguments.output.c_str(), map.extent.x, map.extent.y, name_of(settings.kind).c_str(), map.textures.size(),
             map.textures.size() == 1 ? "" : "s", double(bytes) / (double(map.extent.x) * map.extent.y),
-            map.bake_seconds, map.pack_seconds);
+            map.bake_seconds, map.pack_seconds, for_shaders(map).c_str());
     if (map.report.clamped > 0)
         std::fprintf(
             stderr, "bake: %zu values lie beyond what stands for 1 and were stored as that%s\n", map.report.clamped,

@@ -1,15 +1,17 @@
 #include "common/encoding.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <initializer_list>
 #include <limits>
 #include <span>
 #include <utility>
 
 #include <bumpshadow/encode/reduce.hpp>
-#include <bumpshadow/encode/stb_blocks.hpp>
+#include <bumpshadow/factor_cube.hpp>
 #include <bumpshadow/normal_map.hpp>
 
 #include "common/arguments.hpp"
@@ -141,18 +143,14 @@ struct job {
     }
 
     horizons bake_for(const bs::slice_set& slices) const {
-        if (settings.fit == bs::slice_fit::least_squares) return bake_evenly(directions_for(slices.count));
+        if (settings.fit != bs::slice_fit::point) return bake_evenly(directions_for(slices.count));
         std::vector<glm::dvec2> directions(std::size_t(slices.count));
         bs::fill_directions(directions, slices.phase, slices.function);
         return bake(std::move(directions));
     }
 
-    // What is left to fit where the slices are there already.
-    bs::slice_fit fit_of(bool volume) const {
-        return settings.mips && !volume ? bs::slice_fit::point
-               : settings.mips          ? bs::slice_fit::least_squares
-                                        : settings.fit;
-    }
+    // What is left to fit: with mips the slices are there already.
+    bs::slice_fit fit_of() const { return settings.mips ? bs::slice_fit::point : settings.fit; }
 
     void tangent() const {
         bs::tangent_volume e;
@@ -161,13 +159,14 @@ struct job {
         e.format = settings.bits == stored_bits::eight     ? bs::texel_format::r8
                    : settings.bits == stored_bits::sixteen ? bs::texel_format::r16
                                                            : bs::texel_format::bc4;
-        if (settings.array) e.kind = bs::texture_kind::array;
+        // Levels of a volume have fewer slices, and cannot keep the share of shadowed texels.
+        if (settings.array || settings.mips) e.kind = bs::texture_kind::array;
         require(check(e.slices));
         horizons h = bake_for(e.slices);
         e.scale = scale_for(h, bs::quantity::slope, false);
         require(check(e));
         const std::vector<horizons> levels = with_mips(reduced(std::move(h), e.scale), e.slices, e.scale);
-        pack(levels, {layout_of(e, levels[0].map.extent, int(levels.size()))}, fit_of(!settings.array),
+        pack(levels, {layout_of(e, levels[0].map.extent, int(levels.size()))}, fit_of(),
              [&](auto maps, auto directions, const bs::pack_options& options, auto out) {
                  return bs::pack_tangent_volume(maps, directions, e, options, out[0], run);
              });
@@ -183,7 +182,7 @@ struct job {
         horizons h = bake_for(e.slices);
         e.scale = scale_for(h, bs::quantity::slope, false);
         const std::vector<horizons> levels = with_mips(reduced(std::move(h), e.scale), e.slices, e.scale);
-        pack(levels, {layout_of(e, levels[0].map.extent, int(levels.size()))}, fit_of(false),
+        pack(levels, {layout_of(e, levels[0].map.extent, int(levels.size()))}, fit_of(),
              [&](auto maps, auto directions, const bs::pack_options& options, auto out) {
                  return bs::pack_slice_layers(maps, directions, e, options, out[0], run);
              });
@@ -199,24 +198,28 @@ struct job {
         require(check(e.scale));
         if (settings.published && settings.mips) throw failure("--published has no --mips");
         const std::vector<horizons> levels = with_mips(reduced(std::move(h), e.scale), slices, e.scale);
-        pack(levels, {layout_of(e, levels[0].map.extent, int(levels.size()))}, fit_of(false),
+        pack(levels, {layout_of(e, levels[0].map.extent, int(levels.size()))}, fit_of(),
              [&](auto maps, auto directions, const bs::pack_options& options, auto out) {
                  return settings.published ? bs::pack_sine_layers_averaged(maps, directions, e, options, out, run)
                                            : bs::pack_sine_layers(maps, directions, e, options, out, run);
              });
+        if (settings.factor_cube) {
+            bs::factor_cube cube;
+            if (settings.published) cube = bs::factor_cube_as_published();
+            result.textures.emplace_back(layout_of(cube));
+            require(write_factor_cube(cube, result.textures.back().view()));
+        }
         result.how = e;
     }
 
     void fourier() const {
         bs::fourier e = settings.published ? bs::fourier_as_posted() : bs::fourier{};
-        if (settings.bearings) throw failure("--bearings: a series has --coefficients");
         e.coefficients = settings.coefficients;
         horizons h = bake_evenly(32);
         if (!settings.published) {
             e.scale = scale_for(h, bs::quantity::slope, false);
             e.square_root = settings.square_root;
         }
-        if (settings.bits == stored_bits::bc4) throw failure("--bits: a series is stored in 8 or 16");
         e.bits = settings.bits == stored_bits::eight ? 8 : 16;
         const bs::slice_set all{int(h.directions.size()), 0.0, bs::bearing_function::exact};
         const std::vector<horizons> levels = with_mips(reduced(std::move(h), e.scale), all, e.scale);
@@ -236,8 +239,6 @@ struct job {
         bs::ssbump e;
         e.y = settings.y;
         e.occlusion = settings.occlusion;
-        if (settings.reduce != 1) throw failure("--reduce: not for ssbump, whose mips do that");
-        if (settings.bits == stored_bits::sixteen) throw failure("--bits: ssbump is stored in 8");
         std::vector<horizons> levels;
         levels.push_back(bake_evenly(std::size_t(settings.bearings.value_or(32))));
         std::vector<float> planes = normals_of(samples, source, run.concurrency());
@@ -251,8 +252,6 @@ struct job {
     }
 
     void emboss() const {
-        if (settings.reduce != 1) throw failure("--reduce: not for emboss, whose mips do that");
-        if (settings.bits != stored_bits::eight) throw failure("--bits: emboss is stored in 8");
         bs::emboss e;
         const int mips = settings.mips ? bs::full_mips(samples.extent) : 1;
         for (int i = 0; i < 2; ++i) result.textures.emplace_back(layout_of(e, samples.extent, mips));
@@ -266,6 +265,29 @@ struct job {
         result.how = e;
     }
 };
+
+void refuse_what_does_not_fit(const encoding_settings& s) {
+    using kind = encoding_kind;
+    const auto only = [&](bool given, const char* option, std::initializer_list<kind> kinds) {
+        if (!given || std::find(kinds.begin(), kinds.end(), s.kind) != kinds.end()) return;
+        std::string words;
+        for (const kind k : kinds) words += (words.empty() ? "" : ", ") + name_of(k);
+        throw failure(std::string(option) + " is not for --encoding " + name_of(s.kind) + ", but for " + words);
+    };
+    only(s.bits == stored_bits::bc4, "--bits bc4", {kind::tangent});
+    only(s.bits == stored_bits::sixteen, "--bits 16", {kind::tangent, kind::fourier});
+    only(s.array, "--array", {kind::tangent});
+    only(s.overlapping, "--overlapping", {kind::layers});
+    only(s.published, "--published", {kind::sine, kind::fourier});
+    only(s.factor_cube, "--factor-cube", {kind::sine});
+    only(s.square_root, "--square-root", {kind::fourier});
+    only(s.bearings.has_value(), "--bearings", {kind::tangent, kind::layers, kind::sine, kind::ssbump});
+    only(s.stored.has_value(), "--stored", {kind::tangent, kind::layers, kind::sine, kind::fourier});
+    only(s.max_slope.has_value(), "--max-slope", {kind::tangent, kind::layers, kind::sine, kind::fourier});
+    only(s.reduce != 1, "--reduce", {kind::tangent, kind::layers, kind::sine, kind::fourier});
+    if (s.published && s.kind == kind::fourier && (s.stored || s.max_slope || s.square_root))
+        throw failure("--published has its own --stored, --max-slope and --square-root");
+}
 
 // printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
@@ -355,8 +377,11 @@ void add_encoding_options(CLI::App& app, encoding_settings& settings, bool extra
         ->capture_default_str()
         ->type_name("R");
     add_choice<bs::slice_fit>(app, "--fit", settings.fit,
-                              {{"point", bs::slice_fit::point}, {"least-squares", bs::slice_fit::least_squares}},
-                              "slices: their own horizons, or fitted to four times as many")
+                              {{"point", bs::slice_fit::point},
+                               {"least-squares", bs::slice_fit::least_squares},
+                               {"least-angle", bs::slice_fit::least_angle}},
+                              "slices: their own horizons, or fitted to four times as many (32 at least), for the "
+                              "least squares of what is stored or the least error of the elevation")
         ->type_name("FIT");
     add_choice(app, "--bearing-function", settings.function, function_names, "how the shader measures bearings")
         ->type_name("FUNCTION");
@@ -374,9 +399,10 @@ void add_encoding_options(CLI::App& app, encoding_settings& settings, bool extra
                    "slope that stands for 1; light above it is never shadowed (default: the steepest, at most 4)")
         ->check(positive_or_infinite_number())
         ->type_name("SLOPE");
-    app.add_flag("--mips", settings.mips, "with mip levels");
+    app.add_flag("--mips", settings.mips, "with mip levels; slices become layers of an array");
     app.add_flag("--array", settings.array, "tangent: slices as layers of an array in place of a volume");
     app.add_flag("--overlapping", settings.overlapping, "layers: one fetch, 4/3 of the bytes");
+    app.add_flag("--factor-cube", settings.factor_cube, "sine: writes the cube of factors, too");
     app.add_flag("--published", settings.published, "sine, fourier: as published");
     app.add_option("--coefficients", settings.coefficients, "fourier: 3, 5, 7 or 9")
         ->check(CLI::IsMember({3, 5, 7, 9}))
@@ -411,9 +437,8 @@ encoded encode_heights(const height_samples& samples, const height_source& sourc
                        const encoding_settings& settings, int threads) {
     encoded result;
     result.extent = samples.extent;
+    refuse_what_does_not_fit(settings);
     const job work{samples, source, horizons, settings, bs::threads(threads), result};
-    if (settings.bits == stored_bits::bc4 && settings.kind != encoding_kind::tangent)
-        throw failure("--bits: bc4 has one channel and is for --encoding tangent");
     switch (settings.kind) {
         case encoding_kind::tangent: work.tangent(); break;
         case encoding_kind::layers: work.layers(); break;
@@ -425,6 +450,23 @@ encoded encode_heights(const height_samples& samples, const height_source& sourc
         case encoding_kind::none: throw failure("--encoding: " + name_of(settings.kind) + " has no texture");
     }
     return result;
+}
+
+std::string for_shaders(const encoded& map) {
+    return std::visit(
+        []<class Encoding>(const Encoding& e) {
+            std::string words;
+            if constexpr (requires { e.slices; })
+                words += text("; %d slices, %s bearing", e.slices.count, name_of(e.slices.function));
+            if constexpr (std::is_same_v<Encoding, bs::tangent_volume>)
+                words += text(", coordinate = bearing + %.9g", coordinate_offset(e));
+            if constexpr (requires { requires std::is_same_v<decltype(e.scale), bs::horizon_scale>; })
+                words += text("; %s %.6g stands for 1", name_of(e.scale.stored),
+                              double(bs::quantity_of_slope(e.scale.stored, e.scale.max_slope)));
+            if constexpr (std::is_same_v<Encoding, bs::fourier>) words += "; --json has the ranges";
+            return words;
+        },
+        map.how);
 }
 
 std::string json_of(const encoded& map) {

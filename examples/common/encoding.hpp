@@ -38,6 +38,7 @@ struct encoding_settings {
     bool array = false;                                                              // tangent
     bool overlapping = false;                                                        // layers
     bool published = false;                                                          // sine, fourier
+    bool factor_cube = false;                                                        // sine
     int coefficients = 5;                                                            // fourier
     bool square_root = false;                                                        // fourier
     bumpshadow::normal_y y = bumpshadow::normal_y::down;                             // ssbump
@@ -54,7 +55,7 @@ struct owned_texture {
     [[nodiscard]] bumpshadow::const_texture view() const { return {bytes, layout}; }
 };
 
-// An encoded height map: the constants that decoding needs, and one or two textures (three for nine coefficients).
+// An encoded height map: the constants that decoding needs, and its textures.
 struct encoded {
     std::variant<bumpshadow::tangent_volume, bumpshadow::slice_layers, bumpshadow::sine_layers, bumpshadow::fourier,
                  bumpshadow::ssbump, bumpshadow::emboss>
@@ -77,6 +78,9 @@ void add_encoding_options(CLI::App& app, encoding_settings& settings, bool extra
 
 // Normals of a map, as planes. Throws failure.
 [[nodiscard]] std::vector<float> normals_of(const height_samples& samples, const height_source& source, int threads);
+
+// What a shader author has to know, as the end of a sentence.
+[[nodiscard]] std::string for_shaders(const encoded& map);
 
 // Members of a JSON object (without braces) with every constant that decoding needs, and the layouts of the textures.
 [[nodiscard]] std::string json_of(const encoded& map);

@@ -40,13 +40,15 @@ std::vector<section> all_setups() {
     using enum bs::texel_format;
     using enum bs::quantity;
     using enum bs::slice_grouping;
+    using enum bs::slice_fit;
     constexpr float infinite = std::numeric_limits<float>::infinity();
     std::vector<section> all;
 
+    constexpr std::optional<double> no_bar;
     section published{"As published", {published_sine_layers()}};
     for (const bs::quantity q : {sine, slope, angle}) {
         volume_setup s = slices(8, r8, 8, q == slope ? 4.0f : infinite, q);
-        s.fit = bs::slice_fit::point;
+        s.fit = point;
         published.setups.push_back(volume(s));
     }
     for (const bs::factor_form form : {bs::factor_form::published, bs::factor_form::biased}) {
@@ -57,13 +59,22 @@ std::vector<section> all_setups() {
     published.setups.push_back(series({bs::fourier_as_posted(), false, true}));
     all.push_back(published);
 
-    section fitted{"Slices of one channel, fitted by least squares", {}};
-    fitted.setups.push_back(volume(slices(8, r8, 32), 0.66));
-    fitted.setups.push_back(volume(slices(8, r8, 96), 0.66));
-    for (const int n : {16, 32}) fitted.setups.push_back(volume(slices(n, r8, 96)));
-    for (const int n : {8, 16, 32}) fitted.setups.push_back(volume(slices(n, r16, 96)));
-    for (const bs::quantity q : {sine, angle})
-        for (const int n : {8, 16, 32}) fitted.setups.push_back(volume(slices(n, r8, 96, infinite, q)));
+    section fitted{"Slices of one channel, fitted", {}};
+    for (const bs::slice_fit fit : {least_squares, least_angle}) {
+        const auto add = [&](int count, bs::texel_format format, int directions, std::optional<double> most = {},
+                             bs::horizon_scale scale = {}) {
+            volume_setup s = slices(count, format, directions, scale.max_slope, scale.stored);
+            s.fit = fit;
+            fitted.setups.push_back(volume(s, most));
+        };
+        const std::optional<double> most = fit == least_angle ? std::optional(0.66) : std::nullopt;
+        add(8, r8, 32, most);
+        add(8, r8, 96, most);
+        for (const int n : {16, 32}) add(n, r8, 96);
+        for (const int n : {8, 16, 32}) add(n, r16, 96);
+        for (const bs::quantity q : {sine, angle})
+            for (const int n : {8, 16, 32}) add(n, r8, 96, {}, {q, infinite});
+    }
     eight_setup eight_slopes;
     eight_slopes.encoding.scale = {slope, 4.0f};
     eight_slopes.averaged = false;
@@ -71,9 +82,13 @@ std::vector<section> all_setups() {
     all.push_back(fitted);
 
     section blocks{"BC4", {}};
-    blocks.setups.push_back(volume(slices(8, bc4, 96), 0.72));
-    blocks.setups.push_back(volume(slices(16, bc4, 96), 0.42));
-    blocks.setups.push_back(volume(slices(32, bc4, 96)));
+    for (const bs::slice_fit fit : {least_squares, least_angle})
+        for (const auto& [count, most] :
+             {std::pair{8, std::optional(0.72)}, std::pair{16, std::optional(0.42)}, std::pair{32, no_bar}}) {
+            volume_setup s = slices(count, bc4, 96);
+            s.fit = fit;
+            blocks.setups.push_back(volume(s, most));
+        }
     for (const int n : {8, 16, 32}) {
         volume_setup s = slices(n, bc4, 96);
         s.blocks = block_encoder::stb;

@@ -102,6 +102,11 @@ const char* name_of(bs::texel_format format) {
     return "R8";
 }
 
+std::string name_of(bs::slice_fit fit, int directions) {
+    if (fit == bs::slice_fit::point) return "point";
+    return format("fitted to %d", directions) + (fit == bs::slice_fit::least_angle ? " by angle" : "");
+}
+
 image8 stacked(std::span<const stored> textures) {
     const bs::texture_layout& l = textures.front().layout;
     image8 all({l.extent.x, l.extent.y * l.layers * int(textures.size())}, 4);
@@ -147,8 +152,7 @@ setup volume(const volume_setup& s, std::optional<double> most) {
     const bs::tangent_volume& e = s.encoding;
     setup result;
     result.name = format("%d slices, %s, %s, %s", e.slices.count, name_of(e.scale.stored),
-                         s.fit == bs::slice_fit::point ? "point" : format("fitted to %d", s.directions).c_str(),
-                         name_of(e.format));
+                         name_of(s.fit, s.directions).c_str(), name_of(e.format));
     if (s.blocks == block_encoder::stb) result.name += " by stb";
     result.name += s.most == ceiling::steepest ? ", to the steepest"
                    : s.most == ceiling::best   ? ", to the best for the map"

@@ -1,6 +1,7 @@
 #include "encodings/speed.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstddef>
 
@@ -40,8 +41,9 @@ double time_of(Work&& work) {
 // Packs one kind of texture again and again, into the same memory.
 class packer {
 public:
-    packer(const bs::horizon_map& slopes, std::span<const glm::dvec2> ways, int slices, bs::texel_format format)
-        : slopes_(slopes), ways_(ways) {
+    packer(const bs::horizon_map& slopes, std::span<const glm::dvec2> ways, int slices, bs::texel_format format,
+           bs::slice_fit fit)
+        : slopes_(slopes), ways_(ways), fit_(fit) {
         encoding_.slices.count = slices;
         encoding_.format = format;
         layout_ = bs::layout_of(encoding_, slopes.extent);
@@ -50,6 +52,7 @@ public:
     }
     void operator()() {
         bs::pack_options options;
+        options.fit = fit_;
         options.scratch = scratch_;
         expect(bs::pack_tangent_volume(slopes_, ways_, encoding_, options, {bytes_, layout_}));
     }
@@ -59,6 +62,7 @@ public:
 private:
     const bs::horizon_map& slopes_;
     std::span<const glm::dvec2> ways_;
+    bs::slice_fit fit_;
     bs::tangent_volume encoding_;
     bs::texture_layout layout_;
     std::vector<std::byte> bytes_, scratch_;
@@ -78,40 +82,56 @@ speeds measure_speed(const height_samples& heights, const height_source& source,
                         [&](const auto& view) { expect(bs::bake_cascade(view, ways, slopes)); });
     };
     bake();
-    packer r8(slopes, ways, 8, bs::texel_format::r8), bc4(slopes, ways, 16, bs::texel_format::bc4);
-    r8();
-    bc4();
+    // What is packed, for the bars and for the shading first.
+    struct kind {
+        const char* what;
+        packer pack;
+        std::vector<double> times = {}, shares = {};
+    };
+    const auto kind_of = [&](const char* what, int count, bs::texel_format format, bs::slice_fit fit) {
+        return kind{what, packer(slopes, ways, count, format, fit)};
+    };
+    using enum bs::texel_format;
+    using enum bs::slice_fit;
+    std::array kinds{kind_of("8 slices in R8 fitted to them by angle", 8, r8, least_angle),
+                     kind_of("8 slices in R8 fitted to them", 8, r8, least_squares),
+                     kind_of("16 slices in R8 fitted to them by angle", 16, r8, least_angle),
+                     kind_of("16 slices in R8 fitted to them", 16, r8, least_squares),
+                     kind_of("16 slices in BC4 fitted to them by angle", 16, bc4, least_angle),
+                     kind_of("16 slices in BC4 fitted to them", 16, bc4, least_squares)};
+    for (kind& k : kinds) k.pack();
     std::vector<float> picture(3 * std::size_t(extent.x) * std::size_t(extent.y));
-    const bs::encoded_shadow<bs::tangent_volume> shadow{.encoding = r8.encoding(), .textures = r8.texture()};
+    const bs::encoded_shadow<bs::tangent_volume> shadow{.encoding = kinds[0].pack.encoding(),
+                                                        .textures = kinds[0].pack.texture()};
     bs::shade_options light;
     light.light.direction = {0.8f, 0.5f, 0.4f};
     const auto shade = [&] { expect(bs::shade(light, shadow, bs::flat_surface{extent}, {picture, extent})); };
     shade();
 
     // By turns, so that a machine that becomes slower or faster meanwhile does not matter to the shares.
-    std::vector<double> bakes, packs, shares, blocks, shades;
+    std::vector<double> bakes, shades;
     for (int i = 0; i < repeats; ++i) {
         if (stderr_is_terminal()) std::fprintf(stderr, "\rspeed: %d of %d\033[K", i + 1, repeats);
         bakes.push_back(time_of(bake));
-        packs.push_back(time_of(r8));
-        shares.push_back(packs.back() / bakes.back());
+        for (kind& k : kinds) {
+            k.times.push_back(time_of(k.pack));
+            k.shares.push_back(k.times.back() / bakes.back());
+        }
         shades.push_back(time_of(shade));
-        blocks.push_back(time_of(bc4));
     }
     if (stderr_is_terminal()) std::fputs("\r\033[K", stderr);
 
     const double texels = double(extent.x) * double(extent.y);
     const auto nanoseconds = [&](const std::vector<double>& times) { return median(times) * 1e9 / texels; };
     speeds result;
-    result.pack_share = median(shares);
+    result.pack_share = median(kinds[0].shares);
     result.shade_rate = 1e-6 * texels / median(shades);
-    result.figures = {
-        {"bake of 32 directions, ns a texel", nanoseconds(bakes)},
-        {"8 slices in R8 fitted to them, ns a texel", nanoseconds(packs)},
-        {"the same as a share of the bake", result.pack_share},
-        {"16 slices in BC4 fitted to them, ns a texel", nanoseconds(blocks)},
-        {"shading with one light and 8 slices in R8, million texels a second", result.shade_rate},
-    };
+    result.figures = {{"bake of 32 directions, ns a texel", nanoseconds(bakes)}};
+    for (const kind& k : kinds) {
+        result.figures.push_back({std::string(k.what) + ", ns a texel", nanoseconds(k.times)});
+        result.figures.push_back({"the same as a share of the bake", median(k.shares)});
+    }
+    result.figures.push_back({"shading with one light and 8 slices in R8, million texels a second", result.shade_rate});
     return result;
 }
 

@@ -14,7 +14,8 @@ struct figure {
 };
 
 struct speeds {
-    double pack_share = 0.0;      // of packing 8 fitted slices in R8, in the bake of the 32 directions that it uses
+    // Of packing 8 slices in R8 in the bake of the 32 directions that they are fitted to, by the slowest fit.
+    double pack_share = 0.0;
     double shade_rate = 0.0;      // million texels a second: one light, a tangent volume in R8
     std::vector<figure> figures;  // all, those two included
 };

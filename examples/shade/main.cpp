@@ -68,6 +68,17 @@ std::vector<float> read_normals(const arguments& arguments, glm::ivec2 extent) {
     return planes;
 }
 
+// Textures go on as the map does. What is open has no texture beyond, and clamps.
+bs::address_mode address_of(bs::edge_mode edge) {
+    switch (edge) {
+        case bs::edge_mode::repeat: return bs::address_mode::repeat;
+        case bs::edge_mode::mirror: return bs::address_mode::mirror;
+        case bs::edge_mode::clamp:
+        case bs::edge_mode::open: break;
+    }
+    return bs::address_mode::clamp;
+}
+
 scene make_scene(const arguments& arguments) {
     scene s;
     s.samples = read_heights(arguments.heights);
@@ -75,6 +86,7 @@ scene make_scene(const arguments& arguments) {
     s.horizons = arguments.horizons;
     s.threads = arguments.threads;
     s.light_radius = arguments.hard ? 0.0 : arguments.light_radius;
+    s.how.x = s.how.y = address_of(arguments.heights.edge);
     if (arguments.gpu_weights) s.how.weights = bs::filter_weights::eight_bit;
     if (arguments.k && !arguments.hard) s.edge = bs::shadow_edge{float(*arguments.k), float(arguments.c.value_or(1.0))};
     s.emboss_shift = arguments.shift;
@@ -110,6 +122,10 @@ void work(const arguments& arguments) {
     settings.bearings = arguments.bearings;
     if ((!arguments.lightmaps.empty() || !arguments.detail.empty()) && settings.kind != encoding_kind::ssbump)
         throw failure("--lightmap and --detail are for --encoding ssbump");
+    if (arguments.factor && (!arguments.lightmaps.empty() || !arguments.detail.empty()))
+        throw failure("--factor is of one light: not with --lightmap or --detail");
+    if (arguments.c && !arguments.k) throw failure("--c goes with --k");
+    if (arguments.k && arguments.hard) throw failure("--k and --hard exclude each other");
 
     output_file file(path);
     const scene s = make_scene(arguments);

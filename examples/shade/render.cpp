@@ -9,6 +9,7 @@
 
 #include <bumpshadow/encode/emboss.hpp>
 #include <bumpshadow/encode/emboss_shift.hpp>
+#include <bumpshadow/factor_cube.hpp>
 #include <bumpshadow/horizon/exact.hpp>
 #include <bumpshadow/reference/sampler.hpp>
 #include <bumpshadow/reference/shadow.hpp>
@@ -68,7 +69,19 @@ void with_shadow(const scene& scene, const shown& what, glm::vec3 light, const U
             if constexpr (std::is_same_v<Encoding, bs::fourier>) {
                 bs::fourier_textures all{{}, decoding_of(e)};
                 for (std::size_t i = 0; i < textures.size(); ++i) all.maps[i] = textures[i].view();
+                // The post's edge belongs to its form.
+                if (what.published && !scene.edge && scene.light_radius > 0.0)
+                    edge = {bs::fourier_posted_k, bs::fourier_posted_c}, radius = 0.0;
                 use(bs::encoded_shadow<Encoding, bs::fourier_textures>{e, all, scene.how, edge, radius});
+            } else if constexpr (std::is_same_v<Encoding, bs::sine_layers>) {
+                if (!what.published)
+                    return use(bs::encoded_shadow<Encoding>{e, textures[0].view(), scene.how, edge, radius});
+                const bs::factor_cube cube = bs::factor_cube_as_published();
+                owned_texture factors(layout_of(cube));
+                require(write_factor_cube(cube, factors.view()));
+                const bs::with_factor_cube<bs::const_texture> with_cube{textures[0].view(), factors.view(), cube.form};
+                use(bs::encoded_shadow<Encoding, bs::with_factor_cube<bs::const_texture>>{e, with_cube, scene.how, edge,
+                                                                                          radius});
             } else if constexpr (std::is_same_v<Encoding, bs::emboss>) {
                 const glm::vec2 amount = float(shift_of(scene, *what.map)) / glm::vec2(scene.samples.extent);
                 use(bs::encoded_shadow<Encoding, bs::emboss_texture>{e, {textures[0].view(), amount}, scene.how});
@@ -95,7 +108,10 @@ struct masked_light {
     [[nodiscard]] glm::vec3 operator()(glm::vec2 uv, glm::vec3 light) const {
         glm::vec3 m = glm::vec3(sample(masks, all.how, uv)) / mask_scale(encoding);
         if (encoding.y == bs::normal_y::up) m = bs::shader::bumpshadow_ssbump_other_hand(m);
-        if (all.detail) m = bs::shader::bumpshadow_ssbump_detail(m, texel_at(*all.detail, uv).x);
+        if (all.detail) {
+            const glm::vec3 d = texel_at(*all.detail, uv);
+            m = bs::shader::bumpshadow_ssbump_detail(m, (d.x + d.y + d.z) / 3.0f);
+        }
         if (!all.lightmaps.empty())
             return bs::shader::bumpshadow_ssbump_lightmaps(
                 m, texel_at(all.lightmaps[0], uv), texel_at(all.lightmaps[1], uv), texel_at(all.lightmaps[2], uv));
@@ -129,7 +145,7 @@ image8 paint(const scene& scene, const Light& light) {
 }  // namespace
 
 shown prepare(const scene& scene, const encoding_settings& settings) {
-    shown what{settings.kind, {}};
+    shown what{settings.kind, settings.published, {}};
     if (settings.kind != encoding_kind::traced && settings.kind != encoding_kind::none)
         what.map = encode_heights(scene.samples, scene.source, scene.horizons, settings, scene.threads);
     return what;

@@ -35,6 +35,7 @@ struct scene {
 // What is shown: a packed map, horizons of the light's own bearing, or no shadow.
 struct shown {
     encoding_kind kind = encoding_kind::none;
+    bool published = false;  // sine: factors from the published cube; fourier: the post's own edge
     std::optional<encoded> map;
 };
 

@@ -1,5 +1,9 @@
 #pragma once
 
+#if !defined(__cpp_concepts) || __cplusplus < 202002L && (!defined(_MSVC_LANG) || _MSVC_LANG < 202002L)
+#error "bumpshadow needs C++20: compile with -std=c++20 or /std:c++20, or link the CMake target bumpshadow::bumpshadow"
+#endif
+
 // What a build of bumpshadow can choose. Define a macro before the first include, the same in every translation unit.
 
 // Checks for programmer errors (a texel outside the map handed to a single-texel function). Expected failures are a

@@ -10,14 +10,15 @@ namespace bumpshadow {
 // Why a call could not be carried out.
 enum class error : unsigned char {
     none,
-    missing,        // a pointer or span that is needed is empty
-    not_positive,   // has to be above zero
-    not_finite,     // NaN or infinite
-    out_of_range,   // outside what is allowed or supported
-    too_small,      // a buffer, stride or extent is below what is needed
-    mismatch,       // two sizes that have to be equal are not
-    not_supported,  // this method cannot do what the option asks for
-    out_of_memory,  // the memory resource gave nothing
+    missing,         // a pointer or span that is needed is empty
+    not_positive,    // has to be above zero
+    not_finite,      // NaN or infinite
+    out_of_range,    // outside what is allowed or supported
+    too_small,       // a buffer, stride or extent is below what is needed
+    mismatch,        // two sizes that have to be equal are not
+    not_a_multiple,  // has to be a multiple of the limit
+    not_supported,   // this method cannot do what the option asks for
+    out_of_memory,   // the memory resource gave nothing
 };
 
 // Text of a status: a C string in a fixed buffer, so that reporting an error cannot fail itself.
@@ -64,6 +65,9 @@ public:
                 break;
             case error::too_small: write("%s is %.17g but at least %.17g is needed", argument_, value_, limit_); break;
             case error::mismatch: write("%s is %.17g but has to be %.17g", argument_, value_, limit_); break;
+            case error::not_a_multiple:
+                write("%s is %.9g but has to be a multiple of %.9g", argument_, value_, limit_);
+                break;
             case error::not_supported:
                 write("%s is %.9g, which this method does not support", argument_, value_);
                 break;

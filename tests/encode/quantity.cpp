@@ -39,6 +39,8 @@ TEST_CASE("quantity: there and back, and what is stored") {
     CHECK(to_stored({quantity::slope, 4.0f}, 1.0f) == 0.25f);
     CHECK(to_stored({quantity::sine, std::numeric_limits<float>::infinity()}, 1.0f) == doctest::Approx(std::sqrt(0.5)));
     CHECK(check(horizon_scale{quantity::slope, 0.0f}).code() == error::not_positive);
+    CHECK(check(horizon_scale{quantity::slope, 1e-30f}).code() == error::out_of_range);
+    CHECK(std::isfinite(stored_scale({quantity::slope, smallest_max_slope}) * 1e15f));
     CHECK(check(horizon_scale{quantity::slope, std::numeric_limits<float>::infinity()}).code() == error::not_finite);
     CHECK(check(horizon_scale{quantity::sine, std::numeric_limits<float>::quiet_NaN()}).code() == error::not_positive);
 }

@@ -191,10 +191,10 @@ TEST_CASE("bad input is named and nothing is written") {
         return s.code();
     };
     encoding.slices.count = 10;
-    CHECK(code() == error::mismatch);
+    CHECK(code() == error::not_a_multiple);
     encoding.grouping = slice_grouping::overlapping;
     encoding.slices.count = 8;
-    CHECK(code() == error::mismatch);
+    CHECK(code() == error::not_a_multiple);
     encoding.slices.count = 0;
     CHECK(code() == error::not_positive);
     encoding = {{8}};

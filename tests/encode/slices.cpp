@@ -1,4 +1,5 @@
-// The fit of slices against dense normal equations in double; points, quantities, reports, bad input, executors.
+// The fits of slices against dense normal equations and a minimizer in double; points, quantities, reports, bad input,
+// executors.
 
 #include <bumpshadow/encode/slices.hpp>
 #include <bumpshadow/encode/stored_rows.hpp>
@@ -67,6 +68,89 @@ std::vector<double> dense_fit(const std::vector<double>& bearings, const std::ve
     return result;
 }
 
+// d of the stored values of a scale: radians a value of 1 more.
+double radians_of_one(const horizon_scale& scale, double h) {
+    if (scale.stored == quantity::angle) return std::atan(double(scale.max_slope));
+    if (scale.stored == quantity::sine) {
+        const double unit = std::sin(std::atan(double(scale.max_slope)));
+        return unit / std::sqrt(std::max(0.01, 1.0 - unit * unit * h * h));
+    }
+    const double slope = h * double(scale.max_slope);
+    return double(scale.max_slope) / (1.0 + slope * slope);
+}
+
+// Horizons of one texel in evenly spaced directions, and what slices make of them.
+struct profile {
+    int slices;
+    horizon_scale scale;
+    std::vector<double> stored;
+
+    [[nodiscard]] double between(const std::vector<double>& values, std::size_t j) const {
+        const double position = double(j) * slices / double(stored.size());
+        const std::size_t i = std::size_t(position), next = (i + 1) % std::size_t(slices);
+        const double part = position - double(i);
+        return values[i] * (1.0 - part) + values[next] * part;
+    }
+    [[nodiscard]] double elevation(double value) const {
+        if (scale.stored == quantity::angle) return value * std::atan(double(scale.max_slope));
+        if (scale.stored == quantity::sine) return std::asin(value * std::sin(std::atan(double(scale.max_slope))));
+        return std::atan(value * double(scale.max_slope));
+    }
+    [[nodiscard]] double mean_miss(const std::vector<double>& values) const {
+        double sum = 0.0;
+        for (std::size_t j = 0; j < stored.size(); ++j)
+            sum += std::abs(elevation(between(values, j)) - elevation(stored[j]));
+        return sum / double(stored.size());
+    }
+    // By the formula, after the misses of `first`.
+    [[nodiscard]] std::vector<double> weights(const std::vector<double>& first) const {
+        std::vector<double> result;
+        for (std::size_t j = 0; j < stored.size(); ++j) {
+            const double d = radians_of_one(scale, stored[j]);
+            result.push_back(d * d / (d * std::abs(between(first, j) - stored[j]) + 0.02));
+        }
+        return result;
+    }
+    [[nodiscard]] double weighted_square(const std::vector<double>& values, const std::vector<double>& w) const {
+        double sum = 0.0;
+        for (std::size_t j = 0; j < stored.size(); ++j) sum += w[j] * std::pow(between(values, j) - stored[j], 2.0);
+        return sum;
+    }
+    // The least weighted square within [0, 1]: one slice after the other until nothing changes.
+    [[nodiscard]] std::vector<double> least(std::vector<double> values, const std::vector<double>& w) const {
+        for (int round = 0; round < 300; ++round)
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                std::vector<double> unit(values.size());
+                unit[i] = 1.0;
+                double square = 0.0, pull = 0.0;
+                for (std::size_t j = 0; j < stored.size(); ++j) {
+                    const double part = between(unit, j);
+                    square += w[j] * part * part;
+                    pull += w[j] * part * (stored[j] - between(values, j));
+                }
+                values[i] = std::clamp(values[i] + pull / square, 0.0, 1.0);
+            }
+        return values;
+    }
+};
+
+// Slopes as of a surface: the highest of a few peaks that rise over the ground around some bearings, 0 elsewhere.
+void fill_peaks(const horizons& map, std::uint64_t seed) {
+    shapes::noise random(seed);
+    for (int y = 0; y < map.extent.y; ++y)
+        for (int x = 0; x < map.extent.x; ++x) {
+            for (int j = 0; j < map.bearings; ++j) map.at(j, x, y) = -0.1f;
+            for (int peak = 0; peak < 5; ++peak) {
+                const double at = random.uniform(), wide = 0.03 + 0.2 * random.uniform(), high = 2.5 * random.uniform();
+                for (int j = 0; j < map.bearings; ++j) {
+                    double apart = double(j) / map.bearings - at;
+                    apart = std::abs(apart - std::round(apart)) / wide;
+                    if (apart < 1.0) map.at(j, x, y) = std::max(map.at(j, x, y), float(high * (1.0 - apart * apart)));
+                }
+            }
+        }
+}
+
 // Runs items backwards, so that an order that matters shows.
 struct backwards {
     [[nodiscard]] int concurrency() const { return 1; }
@@ -78,7 +162,7 @@ struct backwards {
 
 }  // namespace
 
-TEST_CASE("the fit solves the dense normal equations") {
+TEST_CASE("least squares solve the dense normal equations") {
     for (const int count : {1, 2, 3, 4, 5, 8, 16, 32})
         for (const double phase : {0.0, 0.3, -0.01})
             for (const bearing_function function :
@@ -87,7 +171,7 @@ TEST_CASE("the fit solves the dense normal equations") {
                 horizons map = horizons::random({21, 3}, many, 7);
                 const slice_set slices{count, phase, function};
                 const horizon_scale scale{quantity::slope, 1.5f};
-                const std::vector<float> found = packed(map, slices, scale);
+                const std::vector<float> found = packed(map, slices, scale, {.fit = slice_fit::least_squares});
                 double worst = 0.0;
                 for (int y = 0; y < map.extent.y; ++y)
                     for (int x = 0; x < map.extent.x; ++x) {
@@ -113,7 +197,8 @@ TEST_CASE("a fit by hand: four horizons to two slices") {
     horizons map({1, 1}, 4);
     const float a = 0.25f, b = 0.5f, c = 0.75f, d = 0.125f;
     for (int i = 0; i < 4; ++i) map.at(i, 0, 0) = i == 0 ? a : i == 1 ? b : i == 2 ? c : d;
-    const auto found = packed(map, {2, 0.0, bearing_function::exact}, {quantity::slope, 1.0f});
+    const auto found =
+        packed(map, {2, 0.0, bearing_function::exact}, {quantity::slope, 1.0f}, {.fit = slice_fit::least_squares});
     const float p = a + (b + d) / 2.0f, q = c + (b + d) / 2.0f;
     CHECK(found[0] == doctest::Approx(double((1.5f * p - 0.5f * q) / 2.0f)).epsilon(1e-6));
     CHECK(found[1] == doctest::Approx(double((1.5f * q - 0.5f * p) / 2.0f)).epsilon(1e-6));
@@ -137,9 +222,82 @@ TEST_CASE("what interpolates linearly already is fitted exactly, over the seam a
         }
         wanted.insert(wanted.end(), own.begin(), own.end());
     }
-    const auto found = packed(map, slices, {quantity::slope, 2.0f});
-    for (std::size_t x = 0; x < 5; ++x)
-        for (std::size_t i = 0; i < 8; ++i) CHECK(std::abs(double(found[i * 5 + x]) - wanted[x * 8 + i]) < 2e-6);
+    for (const slice_fit fit : {slice_fit::least_squares, slice_fit::least_angle}) {
+        const auto found = packed(map, slices, {quantity::slope, 2.0f}, {.fit = fit});
+        for (std::size_t x = 0; x < 5; ++x)
+            for (std::size_t i = 0; i < 8; ++i) CHECK(std::abs(double(found[i * 5 + x]) - wanted[x * 8 + i]) < 2e-6);
+    }
+}
+
+TEST_CASE("least angle: the weighted least squares, and the elevation is off by less") {
+    constexpr int width = 300, many = 32;
+    for (const bool peaks : {false, true})
+        for (const quantity stored : {quantity::slope, quantity::sine, quantity::angle})
+            for (const int count : {1, 2, 3, 8, 16, 32}) {
+                horizons map = horizons::random({width, 1}, many, 21);
+                if (peaks) fill_peaks(map, 22);
+                const horizon_scale scale{stored, 2.0f};
+                const slice_set slices{count, 0.0, bearing_function::exact};
+                const auto squares = packed(map, slices, scale, {.fit = slice_fit::least_squares});
+                const auto angles = packed(map, slices, scale, {.fit = slice_fit::least_angle});
+                double miss_before = 0.0, miss = 0.0, worst = 0.0, could = 0.0, did = 0.0, furthest = 0.0;
+                for (int x = 0; x < width; ++x) {
+                    profile p{count, scale, {}};
+                    for (int j = 0; j < many; ++j) p.stored.push_back(double(to_stored(scale, map.at(j, x, 0))));
+                    std::vector<double> first, found;
+                    for (int i = 0; i < count; ++i) {
+                        first.push_back(double(squares[std::size_t(i * width + x)]));
+                        found.push_back(double(angles[std::size_t(i * width + x)]));
+                        CHECK(found.back() >= 0.0);
+                        CHECK(found.back() <= 1.0);
+                    }
+                    const std::vector<double> w = p.weights(first), best = p.least(first, w);
+                    could += p.weighted_square(first, w) - p.weighted_square(best, w);
+                    did += p.weighted_square(first, w) - p.weighted_square(found, w);
+                    for (std::size_t i = 0; i < best.size(); ++i)
+                        furthest = std::max(furthest, std::abs(best[i] - found[i]));
+                    const double one = p.mean_miss(first), other = p.mean_miss(found);
+                    miss_before += one / width;
+                    miss += other / width;
+                    worst = std::max(worst, other - one);
+                }
+                CAPTURE(peaks);
+                CAPTURE(int(stored));
+                CAPTURE(count);
+                if (count == many) {
+                    CHECK(miss < 1e-6);
+                    continue;
+                }
+                CHECK(did > 0.98 * could);  // of what the weighted problem had to give
+                CHECK(furthest < 0.1);
+                // Radians. Few slices miss by so much that d of the horizon says little about it.
+                CHECK(worst < (count < 8 ? 0.04 : 0.015));
+                CHECK(miss < miss_before * (count < 8 ? 1.01 : 0.99));
+            }
+}
+
+TEST_CASE("least angle: no scale, however odd, leads out of [0, 1], and flat ground stays flat") {
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    horizons map = horizons::random({40, 1}, 16, 9);
+    for (int j = 0; j < 16; ++j) {
+        map.at(j, 0, 0) = -0.5f;
+        map.at(j, 1, 0) = j % 3 == 0 ? 1e30f : 0.0f;
+        map.at(j, 2, 0) = 1e30f;
+    }
+    for (const quantity stored : {quantity::slope, quantity::sine, quantity::angle})
+        for (const float most : {1e-42f, 1e-30f, 1e-3f, 1e6f, 1e30f, infinite}) {
+            if (stored == quantity::slope && most == infinite) continue;
+            if (1.0f / most == infinite) continue;
+            const auto found = packed(map, {6}, {stored, most}, {.fit = slice_fit::least_angle});
+            const auto squares = packed(map, {6}, {stored, most}, {.fit = slice_fit::least_squares});
+            CAPTURE(int(stored));
+            CAPTURE(most);
+            CHECK(std::all_of(found.begin(), found.end(), [](float v) { return v >= 0.0f && v <= 1.0f; }));
+            for (std::size_t i = 0; i < 6; ++i) {
+                CHECK(found[i * 40] == 0.0f);
+                CHECK(found[i * 40 + 2] == doctest::Approx(double(squares[i * 40 + 2])).epsilon(1e-6));
+            }
+        }
 }
 
 TEST_CASE("point takes the horizons in the slices' own directions") {
@@ -194,7 +352,7 @@ TEST_CASE("holes, negative and not a number count as 0; what is too steep is cla
         for (int x = 0; x < 6; ++x) map.at(j, x, 0) = values[x];
     }
     map.at(2, 4, 0) = 7.5f;
-    for (const slice_fit fit : {slice_fit::point, slice_fit::least_squares}) {
+    for (const slice_fit fit : {slice_fit::point, slice_fit::least_squares, slice_fit::least_angle}) {
         pack_report report;
         const auto found =
             packed(map, {4, 0.0, bearing_function::exact}, {quantity::slope, 2.0f}, {.fit = fit, .report = &report});
@@ -211,15 +369,15 @@ TEST_CASE("holes, negative and not a number count as 0; what is too steep is cla
 }
 
 TEST_CASE("wide maps, bands and any executor give the same bits") {
-    for (const glm::ivec2 extent : {glm::ivec2(1, 1), glm::ivec2(517, 37), glm::ivec2(512, 16), glm::ivec2(1030, 5)}) {
+    const auto same = [](glm::ivec2 extent, const pack_options& options) {
         const horizons map = horizons::random(extent, 16, 5);
-        const slice_set slices{8, 0.0, bearing_function::cubic};
-        const auto whole = packed(map, slices, {});
+        const slice_set slices{8, 0.0, bearing_function::exact};
+        const auto whole = packed(map, slices, {}, options);
         for (const int rows : {1, 2, 4}) {
             const auto with = [&](const auto& execute) {
                 std::vector<float> found(whole.size());
                 const status s = for_slice_bands(
-                    map.view(), map.directions, slices, {}, {}, rows, execute, [&](const slice_rows& band) {
+                    map.view(), map.directions, slices, {}, options, rows, execute, [&](const slice_rows& band) {
                         REQUIRE(band.y % rows == 0);
                         REQUIRE(band.count == std::min(rows, extent.y - band.y));
                         for (int i = 0; i < 8; ++i)
@@ -241,22 +399,26 @@ TEST_CASE("wide maps, bands and any executor give the same bits") {
             for (int j = 0; j < 16; ++j)
                 for (int y = 0; y < extent.y; ++y)
                     for (int x = 0; x < part.extent.x; ++x) part.at(j, x, y) = map.at(j, x + 500, y);
-            const auto found = packed(part, slices, {});
-            bool same = true;
+            const auto found = packed(part, slices, {}, options);
+            bool equal = true;
             for (int i = 0; i < 8 * extent.y; ++i)
                 for (int x = 0; x < part.extent.x; ++x)
-                    same = same && found[std::size_t(i * part.extent.x + x)] ==
-                                       whole[std::size_t(i) * std::size_t(extent.x) + std::size_t(x) + 500];
-            CHECK(same);
+                    equal = equal && found[std::size_t(i * part.extent.x + x)] ==
+                                         whole[std::size_t(i) * std::size_t(extent.x) + std::size_t(x) + 500];
+            CHECK(equal);
         }
-    }
+    };
+    for (const slice_fit fit : {slice_fit::point, slice_fit::least_squares, slice_fit::least_angle})
+        for (const glm::ivec2 extent :
+             {glm::ivec2(1, 1), glm::ivec2(517, 37), glm::ivec2(512, 16), glm::ivec2(1030, 5)})
+            same(extent, {.fit = fit});
 }
 
 TEST_CASE("scratch: the stated size is enough, less is refused") {
     const horizons map = horizons::random({40, 20}, 32, 1);
     for (const int threads_count : {1, 3}) {
         std::vector<std::byte> scratch(slice_scratch_size(map.extent, 32, 8, threads_count));
-        pack_options options{.scratch = scratch};
+        pack_options options{.fit = slice_fit::least_angle, .scratch = scratch};
         const auto run = [&] {
             return for_slice_bands(map.view(), map.directions, {8}, {}, options, 4, threads(threads_count),
                                    [](const slice_rows&) {});
@@ -266,7 +428,7 @@ TEST_CASE("scratch: the stated size is enough, less is refused") {
         CHECK(run().code() == error::too_small);
     }
     // O(width x slices): as much for many directions and rows but for their weights.
-    CHECK(slice_scratch_size({1024, 4096}, 128, 8) < 1024 * 8 * 4 * 4 + 32768);
+    CHECK(slice_scratch_size({1024, 4096}, 128, 8) < 1024 * 8 * 4 * 4 + 128 * 1024);
 }
 
 TEST_CASE("bad input is named and nothing is written") {
@@ -286,7 +448,10 @@ TEST_CASE("bad input is named and nothing is written") {
     slices.count = most_slices + 1;
     CHECK(code() == error::out_of_range);
     slices = {9};
-    CHECK(code() == error::too_small);  // more than directions
+    for (const slice_fit fit : {slice_fit::least_squares, slice_fit::least_angle}) {
+        options.fit = fit;
+        CHECK(code() == error::too_small);  // more than directions
+    }
     slices = {4, std::nan("")};
     CHECK(code() == error::not_finite);
     slices = {4};

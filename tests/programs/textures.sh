@@ -71,7 +71,7 @@ sized $((64 * 64 * 8)) --encoding tangent
 sized $((64 * 64 * 16)) --encoding tangent --bits 16
 sized $((64 * 64 * 8)) --encoding tangent --bearings 16 --bits bc4
 sized $((32 * 32 * 8)) --encoding tangent --reduce 2
-sized $((64 * 64 * 8 + 32 * 32 * 4)) --encoding tangent --mips
+sized $((64 * 64 * 8 + 32 * 32 * 8)) --encoding tangent --mips
 sized $((64 * 64 * 8 + 32 * 32 * 8)) --encoding tangent --array --mips
 sized $((64 * 64 * 16)) --encoding layers --bearings 16
 sized $((64 * 64 * 16)) --encoding layers --bearings 12 --overlapping
@@ -102,9 +102,13 @@ fi
 if command -v iinfo >/dev/null; then
     # seen FILE TEXT
     seen() { iinfo -v "$1" | tr -s ' ' | grep -qF -e "$2" || fail "OpenImageIO sees in $1: $(iinfo -v "$1")"; }
-    run in/hill.png -o out/c.dds --height-scale 4 --encoding tangent --mips
+    run in/hill.png -o out/c.dds --height-scale 4 --encoding tangent
     seen out/c.dds '64 x 64 x 8, 1 channel, volume uint8 dds'
-    seen out/c.dds 'MIP-map levels: 64x64 32x32'
+    run in/block.png -o out/c.dds --height-scale 4 --encoding ssbump --mips
+    seen out/c.dds 'MIP-map levels: 32x32 16x16 8x8 4x4 2x2 1x1'
+    run in/block.png -o out/c.dds --height-scale 4 --encoding sine --factor-cube
+    seen out/c.1.dds 'textureformat: "CubeFace Environment"'
+    seen out/c.1.dds '+x -x +y -y +z -z'
     run in/hill.png -o out/c.dds --height-scale 4 --encoding tangent --bits bc4 --bearings 16
     seen out/c.dds '64 x 64 x 16, 1 channel, volume uint8 dds'
     seen out/c.dds 'compression: "BC4"'
@@ -116,9 +120,11 @@ fi
 
 rm -f out/*
 refuse 1 'the extension has to be .dds or .raw' in/block.png -o out/a.png --encoding tangent
-refuse 1 'multiple' in/block.png -o out/a.dds --encoding layers --bearings 6
+refuse 1 '--bearings is not for --encoding emboss' in/block.png -o out/a.dds --encoding emboss --bearings 4
+refuse 1 '--array is not for --encoding layers, but for tangent' in/block.png -o out/a.dds --encoding layers --array
+refuse 1 'slices is 6 but has to be a multiple of 4' in/block.png -o out/a.dds --encoding layers --bearings 6
 refuse 1 '--bearings: sine layers have 8' in/block.png -o out/a.dds --encoding sine --bearings 4
-refuse 1 '--bits: bc4' in/block.png -o out/a.dds --encoding layers --bits bc4
+refuse 1 '--bits bc4 is not for' in/block.png -o out/a.dds --encoding layers --bits bc4
 refuse 2 '--coefficients' in/block.png -o out/a.dds --encoding fourier --coefficients 4
 refuse 2 '--max-slope' in/block.png -o out/a.dds --max-slope 0
 refuse 1 'max_slope is inf' in/block.png -o out/a.dds --max-slope inf

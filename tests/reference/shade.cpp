@@ -396,3 +396,26 @@ TEST_CASE("bad input is refused and nothing is written") {
     CHECK(to_srgb8(c, pixels{bytes, {4, 2}, 4}).code() == error::too_small);
     CHECK(to_srgb8(c, pixels{bytes, {2, 4}, 3}).code() == error::mismatch);
 }
+
+TEST_CASE("shade: a shadow without its texture is refused") {
+    std::vector<float> values(3 * 4 * 4, 7.0f);
+    const rgb_image out{.values = values, .extent = {4, 4}};
+    const flat_surface flat{{4, 4}};
+    encoded_shadow<tangent_volume> shadow;
+    CHECK(shade({}, shadow, flat, out).argument() == std::string_view("texture kind"));
+    const texture_layout layout = layout_of(tangent_volume{}, {4, 4});
+    std::vector<std::byte> bytes(layout.required_size());
+    shadow.textures = const_texture{std::span<const std::byte>(bytes).first(bytes.size() - 1), layout};
+    CHECK(shade({}, shadow, flat, out).code() == error::too_small);
+    shadow.textures = const_texture{bytes, layout};
+    shadow.edge.k = -1.0f;
+    CHECK(shade({}, shadow, flat, out).argument() == std::string_view("edge.k"));
+    shadow.edge.k = 8.0f;
+    shadow.radius = 90.0;
+    CHECK(shade({}, shadow, flat, out).argument() == std::string_view("radius"));
+    CHECK(std::count(values.begin(), values.end(), 7.0f) == 48);
+    shadow.radius = 1.0;
+    CHECK(bool(shade({}, shadow, flat, out)));
+    const encoded_shadow<fourier, fourier_textures> series;
+    CHECK(shade({}, series, flat, out).code() == error::mismatch);
+}

@@ -564,3 +564,23 @@ TEST_CASE("whole pictures: every shadow, and the edge at each pixel's own light"
         CHECK(std::abs(double(values[std::size_t(3 * x)]) - expected) < 0.002);
     }
 }
+
+TEST_CASE("edge: straight up is lit over any horizon, and so is what lies near it") {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (const horizon_scale scale : {horizon_scale{quantity::sine, infinity},
+                                      {quantity::angle, infinity},
+                                      {quantity::sine, 4.0f},
+                                      {quantity::slope, 4.0f}})
+        for (const double radius : {0.1, 1.0, 10.0})
+            for (const float c : {0.5f, 1.0f}) {
+                CAPTURE(int(scale.stored));
+                CAPTURE(radius);
+                const shadow_edge up = edge_for(radius, scale, 90.0, c);
+                const float light = quantity_of_slope(scale.stored, 1e15f) * stored_scale(scale);
+                CHECK(shader::bumpshadow_shadow_soft(light, 1.0f, up.k, up.c) == 1.0f);
+                // The edge changes without a jump where the penumbra begins to reach beyond the zenith.
+                const shadow_edge before = edge_for(radius, scale, 90.0 - 2.0 * radius - 1e-4, c);
+                const shadow_edge after = edge_for(radius, scale, 90.0 - 2.0 * radius + 1e-4, c);
+                CHECK(std::abs(after.c - before.c) < 1e-3f);
+            }
+}

@@ -12,11 +12,17 @@ namespace bumpshadow {
 // The quantity with the slope that stands for 1. Horizons steeper than max_slope are stored as 1, those below 0 as 0.
 struct horizon_scale {
     quantity stored = quantity::slope;
-    float max_slope = 4.0f;  // above 0; infinity is allowed for sine and angle: all elevations up to 90 degrees
+    float max_slope =
+        4.0f;  // at least smallest_max_slope; infinity is allowed for sine and angle: all elevations up to 90 degrees
 };
+
+// The inverse of a smaller one, times a light straight up, would overflow.
+inline constexpr float smallest_max_slope = 1e-18f;
 
 [[nodiscard]] inline status check(const horizon_scale& scale) {
     if (!(scale.max_slope > 0.0f)) return {error::not_positive, "max_slope", double(scale.max_slope)};
+    if (!(scale.max_slope >= smallest_max_slope))
+        return {error::out_of_range, "max_slope", double(scale.max_slope), double(smallest_max_slope)};
     if (scale.stored == quantity::slope && !std::isfinite(scale.max_slope))
         return {error::not_finite, "max_slope", double(scale.max_slope)};
     return {};

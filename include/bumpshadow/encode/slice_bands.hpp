@@ -13,6 +13,7 @@
 
 #include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/encode/slice_fit.hpp>
+#include <bumpshadow/encode/slice_reweight.hpp>
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
@@ -97,6 +98,17 @@ inline void add(pack_report& seen, const lanes_seen& lanes) {
     }
 }
 
+inline constexpr int fetch_distance = 8;  // directions
+
+// Asks for memory that is read soon, where the compiler has a word for it.
+inline void fetch(const float* from, int count) {
+#if defined(__GNUC__)
+    for (int i = 0; i < count; i += 16) __builtin_prefetch(from + i, 0, 2);
+#else
+    static_cast<void>(from), static_cast<void>(count);
+#endif
+}
+
 // Slopes to stored values in [0, 1]; count is at most `chunk`; `to` is padded.
 inline void convert(const horizon_scale& scale, const float* from, int count, float* to, lanes_seen& seen) {
     using namespace simd;
@@ -132,42 +144,54 @@ inline void convert(const horizon_scale& scale, const float* from, int count, fl
         for (std::size_t i = 0; i < end; ++i) to[i] = at_most_one(angle_of_slope(to[i]) * scaled);
 }
 
-// All slices of one row; values: [slice] at slice_step, padded; work: work_rows chunks.
+// All slices of one row; values: [slice] at slice_step, padded; work: work_size floats.
 // source(index, x, y, count, to, seen) writes `count` stored values and pads them.
 template <class Source>
 void make_row(const plan& p, int width, int y, const Source& source, float* values, std::size_t slice_step, float* work,
               pack_report& report) {
-    for (int x = 0; x < width; x += chunk) {
-        const int count = (std::min)(chunk, width - x);
+    const int step = p.fitted ? fit_chunk : chunk;
+    const std::span<const contribution> all = p.contributions;
+    for (int x = 0; x < width; x += step) {
+        const int count = (std::min)(step, width - x);
         const std::size_t padded_count = padded(count);
         float* const out = values + x;
         lanes_seen seen;
         if (!p.fitted) {
-            for (const contribution& c : p.contributions)
+            for (const contribution& c : all)
                 source(c.source, x, y, count, out + std::size_t(c.slice) * slice_step, seen);
             add(report, seen);
             continue;
         }
         for (int i = 0; i < p.slices.count; ++i) std::fill_n(out + std::size_t(i) * slice_step, padded_count, 0.0f);
-        for (std::size_t from = 0, to = 0; from < p.contributions.size(); from = to) {
-            const contribution* const c = &p.contributions[from];
-            for (; to < p.contributions.size() && to < from + work_rows && p.contributions[to].slice == c->slice; ++to)
-                source(p.contributions[to].source, x, y, count, work + (to - from) * chunk, seen);
-            add_rows(c, int(to - from), work, out + std::size_t(c->slice) * slice_step,
+        for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
+            const contribution* const c = &all[from];
+            // What is looked at again has to stay.
+            float* const rows = p.reweighted ? work + from * work_step : work;
+            for (; to < all.size() && to < from + work_rows && all[to].slice == c->slice; ++to)
+                source(all[to].source, x, y, count, rows + (to - from) * work_step, seen);
+            add_rows(c, int(to - from), rows, out + std::size_t(c->slice) * slice_step,
                      out + std::size_t(c->next) * slice_step, padded_count);
         }
         add(report, seen);
         solve(p.columns, out, slice_step, padded_count);
+        if (p.reweighted) reweight(p, work, out, slice_step, work + all.size() * work_step, padded_count);
     }
 }
+
+// Floats of work: enough for any fit.
+[[nodiscard]] constexpr std::size_t work_size(std::size_t directions, int slices) {
+    return (std::max)(work_rows * work_step, reweight_size(directions, std::size_t(slices)));
+}
+
+// Floats from slice to slice of a band.
+[[nodiscard]] constexpr std::size_t slice_step(int width, int rows) { return padded(width) * std::size_t(rows) + 16; }
 
 [[nodiscard]] inline std::size_t scratch_bytes(int width, std::size_t directions, int slices, int rows, int slots) {
     scratch_layout layout;
     layout.add<contribution>((std::max)(directions, std::size_t(slices))).add<column>(std::size_t(slices));
     layout.add<double>(3 * std::size_t(slices)).add<glm::dvec2>(std::size_t(slices));
     for (int i = 0; i < slots; ++i)
-        layout.add<float>(std::size_t(slices) * std::size_t(rows) * padded(width))
-            .add<float>(work_rows * std::size_t(chunk));
+        layout.add<float>(std::size_t(slices) * slice_step(width, rows)).add<float>(work_size(directions, slices));
     return layout.add<float*>(2 * std::size_t(slots)).bytes();
 }
 
@@ -194,18 +218,18 @@ template <class MakePlan, class Source, executor Executor, class Sink>
                                   "the scratch of slices");
         !s)
         return s;
-    plan p{wanted.slices, false, {}, {}};
+    plan p{.slices = wanted.slices, .contributions = {}, .columns = {}};
     const std::size_t contributions = (std::max)(wanted.sources, count);
     p.contributions = {block.carve<contribution>(contributions), contributions};
     p.columns = {block.carve<column>(count), count};
     double* const work = block.carve<double>(3 * count);
     if (status s = make_plan(p, std::span<glm::dvec2>(block.carve<glm::dvec2>(count), count), work); !s) return s;
 
-    const std::size_t row_step = padded(width), slice_step = row_step * std::size_t(rows);
+    const std::size_t row_step = padded(width), step = slice_step(width, rows);
     float** const buffers = block.carve<float*>(2 * std::size_t(slots));
     for (int i = 0; i < slots; ++i) {
-        buffers[2 * i] = block.carve<float>(count * slice_step);
-        buffers[2 * i + 1] = block.carve<float>(work_rows * std::size_t(chunk));
+        buffers[2 * i] = block.carve<float>(count * step);
+        buffers[2 * i + 1] = block.carve<float>(work_size(wanted.sources, wanted.slices.count));
     }
     std::atomic<std::size_t> clamped{0};
     std::atomic<float> steepest{0.0f};
@@ -218,9 +242,9 @@ template <class MakePlan, class Source, executor Executor, class Sink>
         for (int y = first; y < end; y += rows) {
             const int here = (std::min)(rows, end - y);
             for (int r = 0; r < here; ++r)
-                make_row(p, width, y + r, source, values + std::size_t(r) * row_step, slice_step,
+                make_row(p, width, y + r, source, values + std::size_t(r) * row_step, step,
                          buffers[2 * lease.index() + 1], seen);
-            sink(slice_rows{y, here, values, row_step, slice_step});
+            sink(slice_rows{y, here, values, row_step, step});
         }
         clamped.fetch_add(seen.clamped, std::memory_order_relaxed);
         float highest = steepest.load(std::memory_order_relaxed);

@@ -8,6 +8,7 @@
 #include <glm/ext/vector_double2.hpp>
 
 #include <bumpshadow/bearing.hpp>
+#include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/simd.hpp>
 #include <bumpshadow/status.hpp>
 
@@ -28,6 +29,9 @@ inline constexpr int most_slices = 4096;
 enum class slice_fit : unsigned char {
     point,          // the horizon in the slice's own direction, which has to be among those baked
     least_squares,  // what interpolates closest to all horizons baked; 32 directions or more are worth having
+    // The least mean error of the elevation, found by reweighting the least squares once: 4 % fewer wrong answers of 8
+    // to 32 slices of slopes, for about twice the time. halve_slices fits by least squares instead.
+    least_angle,
 };
 
 [[nodiscard]] inline status check(const slice_set& slices) {
@@ -39,8 +43,10 @@ enum class slice_fit : unsigned char {
 
 namespace slice_detail {
 
-inline constexpr int chunk = 512;  // texels of a row that are worked on at a time: they stay in the first cache
-inline constexpr std::size_t work_rows = 4;
+inline constexpr int chunk = 512;      // texels of a row that are worked on at a time: they stay in the first cache
+inline constexpr int fit_chunk = 128;  // the same while fitting, which takes rows of all directions
+inline constexpr std::size_t work_step = fit_chunk + 16;  // floats from row to row: no power of 2, for the cache's sake
+inline constexpr std::size_t work_rows = 4;               // that are added at a time
 
 [[nodiscard]] constexpr std::size_t padded(int texels) { return (std::size_t(texels) + 15) / 16 * 16; }
 
@@ -62,6 +68,10 @@ struct plan {
     bool fitted = false;
     std::span<contribution> contributions;  // by slice
     std::span<column> columns;
+    bool reweighted = false;
+    // Of a reweighted one: what the stored values are, and how much of it 1 stands for.
+    quantity stored = quantity::slope;
+    float unit = 1.0f;
 };
 
 // Where a bearing lies among the slices; what is a slice but for rounding is that slice.
@@ -144,13 +154,13 @@ template <class Bearing>
     return {};
 }
 
-// slice += weight * row and next += next_weight * row for `rows` of them, which lie a chunk apart.
+// slice += weight * row and next += next_weight * row for `rows` of them, which lie work_step apart.
 inline void add_rows(const contribution* c, int rows, const float* row, float* slice, float* next, std::size_t count) {
     using namespace simd;
     for (std::size_t x = 0; x < count; x += std::size_t(width)) {
         pack here = load(slice + x), there = load(next + x);
         for (int r = 0; r < rows; ++r) {
-            const pack value = load(row + std::size_t(r) * std::size_t(chunk) + x);
+            const pack value = load(row + std::size_t(r) * work_step + x);
             here = multiply_add(splat(c[r].weight), value, here);
             there = multiply_add(splat(c[r].next_weight), value, there);
         }

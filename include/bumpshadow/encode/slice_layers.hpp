@@ -42,8 +42,7 @@ struct slice_layers {
     if (status s = check(encoding.slices); !s) return s;
     if (status s = check(encoding.scale); !s) return s;
     const int each = slices_per_layer(encoding.grouping), count = encoding.slices.count;
-    if (count % each != 0)
-        return {error::mismatch, "slices (not a multiple)", double(count), double((count + each - 1) / each * each)};
+    if (count % each != 0) return {error::not_a_multiple, "slices", double(count), double(each)};
     return {};
 }
 

@@ -85,8 +85,8 @@ namespace bumpshadow {
     return check(t);
 }
 
-// Bytes of scratch that a pack of slices takes, at the most, on an executor of that concurrency: O(width * slices) a
-// thread.
+// Bytes of scratch that a pack of slices takes, at the most, on an executor of that concurrency: O(width * slices) and
+// 600 a direction for each thread.
 [[nodiscard]] inline std::size_t slice_scratch_size(glm::ivec2 extent, std::size_t directions, int slices,
                                                     int concurrency = 1) {
     const auto items = (std::size_t((std::max)(extent.y, 1)) + slice_detail::rows_of_item - 1) / 16;
@@ -98,7 +98,7 @@ namespace bumpshadow {
 //   rows: of a band, 1, 2 or 4; the last one may have fewer
 // Slopes are brought to the stored quantity and clamped to [0, 1], fitted or picked, and what was fitted clamped again.
 // Holes and NaN count as 0.
-// Errors: sizes; point: mismatch where a slice's own direction is missing (1e-6); least squares: too_small for fewer
+// Errors: sizes; point: mismatch where a slice's own direction is missing (1e-6); the fits: too_small for fewer
 // directions than slices, out_of_range where they leave a slice undetermined; scratch. Then no sink is called.
 template <executor Executor, class Sink>
 [[nodiscard]] status for_slice_bands(const horizon_map& slopes, std::span<const glm::dvec2> directions,
@@ -109,15 +109,24 @@ template <executor Executor, class Sink>
     if (status s = check_horizons(slopes, directions); !s) return s;
     if (rows != 1 && rows != 2 && rows != 4) return {error::out_of_range, "rows of a band", double(rows), 4.0};
     const std::size_t count = std::size_t(slices.count);
-    if (options.fit == slice_fit::least_squares && directions.size() < count)
+    if (options.fit != slice_fit::point && directions.size() < count)
         return {error::too_small, "directions", double(directions.size()), double(count)};
 
     const auto make_plan = [&](slice_detail::plan& p, std::span<glm::dvec2> own, double* work) {
         if (options.fit == slice_fit::point) return slice_detail::plan_point(p, directions, own);
+        p.reweighted = options.fit == slice_fit::least_angle;
+        p.stored = scale.stored;
+        p.unit = 1.0f / stored_scale(scale);
         return slice_detail::plan_fit(
             p, directions.size(), [&](std::size_t i) { return to_bearing(slices.function, directions[i]); }, work);
     };
     const auto source = [&](int bearing, int x, int y, int texels, float* to, slice_detail::lanes_seen& seen) {
+        // Rows come from far apart, in no order that the machine would foresee.
+        const int soon = bearing + slice_detail::fetch_distance;
+        if (soon < slopes.bearings)
+            slice_detail::fetch(slopes.row(soon, y) + x, texels);
+        else if (x + 2 * texels <= slopes.extent.x)
+            slice_detail::fetch(slopes.row(soon % slopes.bearings, y) + x + texels, texels);
         slice_detail::convert(scale, slopes.row(bearing, y) + x, texels, to, seen);
     };
     return slice_detail::run({slopes.extent, directions.size(), slices, rows}, options, make_plan, source, execute,
@@ -173,11 +182,11 @@ template <executor Executor = serial>
 }
 
 // max_slope for a map: its steepest horizon, but at most `most`, since light above that is hardly ever shadowed and the
-// rest gains precision. A map without horizons above 0 gets `most`.
+// rest gains precision. A map without horizons to speak of gets `most`.
 // Source: Forsyth, Self-shadowing Bumpmap using 3D Texture Hardware, section 4.1.
 [[nodiscard]] inline float suggest_max_slope(const horizon_map& slopes, float most = 4.0f) {
     const float steepest = steepest_slope(slopes);
-    return steepest > 0.0f && steepest < most ? steepest : most;
+    return steepest >= smallest_max_slope && steepest < most ? steepest : most;
 }
 
 }  // namespace bumpshadow

@@ -176,7 +176,7 @@ template <executor Executor = serial>
                                   const pack_options& options, const texture& out, Executor&& execute = {}) {
     using namespace tangent_volume_detail;
     if (status s = check(encoding); !s) return s;
-    if (encoding.slices.count % 2 != 0) return {error::not_supported, "slices (odd)", double(encoding.slices.count)};
+    if (encoding.slices.count % 2 != 0) return {error::not_a_multiple, "slices", double(encoding.slices.count), 2.0};
     const tangent_volume half = halved(encoding);
     const texture_layout& layout = from.layout;
     if (status s = check_layout(from, layout_of(encoding, layout.extent, layout.mips)); !s) return s;

@@ -39,6 +39,7 @@ namespace bumpshadow {
 //   bool row(glm::ivec2 extent, glm::ivec2 first, int count, glm::vec3 light, float* factors) const
 //     the same for `count` texels from `first` on, of a map of that extent; false where it would rather be called
 //   static constexpr bool shades: what it gives is brightness, max(n . l, 0) included
+//   status check() const: whether it can be used at all
 struct no_shadow {
     float operator()(glm::vec2, glm::vec3) const { return 1.0f; }
     [[nodiscard]] bool row(glm::ivec2, glm::ivec2, int count, glm::vec3, float* factors) const {
@@ -312,8 +313,8 @@ private:
 }  // namespace shade_detail
 
 // Writes out.extent pixels; for a flat_surface that is the extent of the surface and of the maps.
-// Errors: what the checks of light, picture and maps find, numbers that are not finite, an existing shadow of another
-// size, fading without a near viewer.
+// Errors: what the checks of light, picture, maps and shadow find, numbers that are not finite, an existing shadow of
+// another size, fading without a near viewer.
 template <class Shadow, class Surface, executor Executor = serial>
 [[nodiscard]] status shade(const shade_options& options, const Shadow& shadow, const Surface& surface,
                            const rgb_image& out, Executor&& execute = {}) {
@@ -328,6 +329,8 @@ template <class Shadow, class Surface, executor Executor = serial>
             return {error::mismatch, "surface extent.y", double(surface.extent.y), double(out.extent.y)};
     }
     if (status s = shade_detail::check_maps(options, out.extent, flat); !s) return s;
+    if constexpr (requires { shadow.check(); })
+        if (status s = shadow.check(); !s) return s;
     const shade_detail::pass<Shadow, Surface> pass(options, shadow, surface, out);
     constexpr int band = shade_detail::band;
     std::forward<Executor>(execute)(std::size_t((out.extent.y + band - 1) / band), [&](std::size_t item) {

@@ -40,7 +40,8 @@
 //   any length           the direction counts, from denormal to the largest
 //   below the surface    0, whatever the horizon
 //   on the horizon       lit, with a hard edge or c = 1; half lit with c = 0.5
-//   straight up          1, with c = 0.5 unless the stored horizon comes within 0.5 / k of the zenith
+//   straight up          1; with an edge that edge_for() did not give and c = 0.5, unless the stored horizon comes
+//                        within 0.5 / k of the zenith
 //   the zero vector      as one in the surface, towards +x
 //   NaN or infinite      0
 // Textures have to pass check() and to have the layout of the encoding. The result is finite and in [0, 1]; ssbump and
@@ -229,8 +230,8 @@ struct traced {
     horizon_scale scale;
 };
 
-[[nodiscard]] constexpr texture_layout layout_of(const traced&, glm::ivec2 extent) {
-    return {.format = texel_format::r32f, .extent = extent};
+[[nodiscard]] constexpr texture_layout layout_of(const traced&, glm::ivec2 extent, int mips = 1) {
+    return {.format = texel_format::r32f, .extent = extent, .mips = mips};
 }
 [[nodiscard]] inline float light_level(const traced& encoding, glm::vec3 light) {
     return shadow_detail::level_of(encoding.scale, light);
@@ -325,22 +326,58 @@ inline void volume_row(const tangent_volume& encoding, const const_texture& from
     }
 }
 
+// That textures have the layout of their encoding, and all of their bytes.
+template <class Encoding>
+[[nodiscard]] status check_textures(const Encoding& encoding, const const_texture& from) {
+    return check_layout(from, layout_of(encoding, from.layout.extent, from.layout.mips));
+}
+[[nodiscard]] inline status check_textures(const sine_layers& encoding, const two_textures& from) {
+    if (!encoding.separate) return {error::mismatch, "textures", 2.0, 1.0};
+    if (status s = check_textures<sine_layers>(encoding, from.first); !s) return s;
+    return check_textures<sine_layers>(encoding, from.second);
+}
+template <class Textures>
+[[nodiscard]] status check_textures(const sine_layers& encoding, const with_factor_cube<Textures>& from) {
+    if (from.cube.layout.kind != texture_kind::cube)
+        return {error::mismatch, "cube kind", double(from.cube.layout.kind), double(texture_kind::cube)};
+    if (status s = check(from.cube); !s) return s;
+    return check_textures(encoding, from.maps);
+}
+[[nodiscard]] inline status check_textures(const fourier& encoding, const fourier_textures& from) {
+    if (status s = check(encoding); !s) return s;
+    for (int i = 0; i < texture_count(encoding); ++i) {
+        const const_texture& t = from.maps[std::size_t(i)];
+        if (status s = check_layout(t, layout_of(encoding, t.layout.extent, t.layout.mips, i)); !s) return s;
+    }
+    return {};
+}
+[[nodiscard]] inline status check_textures(const emboss& encoding, const emboss_texture& from) {
+    return check_textures<emboss>(encoding, from.heights);
+}
+
 }  // namespace shadow_detail
 
-// A shadow for shade.hpp.
+// A shadow for shade.hpp. Name the template arguments: not every compiler deduces them from designated initializers.
 //   edge    shape of the shadow's edge
 //   radius  degrees; above 0, k is that of edge_for() at each pixel's own elevation of the light: for near lights and
 //           curved surfaces
 template <class Encoding, class Textures = const_texture>
 struct encoded_shadow {
-    Encoding encoding;
-    Textures textures;
+    Encoding encoding = {};
+    Textures textures = {};
     sampler how = {};
     shadow_edge edge = {};
     double radius = 0.0;
     float level = 0.0f;
 
     static constexpr bool shades = std::is_same_v<Encoding, ssbump> || std::is_same_v<Encoding, emboss>;
+
+    // shade() begins with it.
+    [[nodiscard]] status check() const {
+        if (status s = bumpshadow::check(edge); !s) return s;
+        if (!(radius >= 0.0 && radius <= 45.0)) return {error::out_of_range, "radius", radius, 45.0};
+        return shadow_detail::check_textures(encoding, textures);
+    }
 
     [[nodiscard]] shadow_edge edge_at(glm::vec3 light) const {
         if constexpr (!shades)

@@ -57,6 +57,15 @@ inline constexpr double sun_radius = 0.2666;
         }
         return std::tan(angle);
     };
+    // Of a penumbra that reaches beyond the zenith the part above the light's middle is cut off: straight up, all light
+    // is seen over any horizon.
+    const double beyond = (middle + double(c) * width - highest) / (double(c) * width);
+    if (last == highest && width > 0.0 && beyond > 0.0) {
+        const double left = double(c) + (1.0 - double(c)) * (std::min)(beyond, 1.0);
+        const double below = (stored(middle) - stored(low)) * double(stored_scale(scale));
+        if (below > 0.0) return {static_cast<float>(left / below), static_cast<float>(left)};
+        return {std::numeric_limits<float>::infinity(), 1.0f};
+    }
     // Part of the penumbra that is left, over the range that it takes up.
     const double share = (high - low) / width, range = (stored(high) - stored(low)) * double(stored_scale(scale));
     if (!(width > 0.0) || !(range > 0.0)) return {std::numeric_limits<float>::infinity(), c};

@@ -2,7 +2,8 @@
 // GLSL ES 300 and newer. MIT license. Generated; the single source is in shader/*.h beside it.
 //
 // How to paste it
-//   1. Put this text above main(), below #version and, in GLSL ES, below the precision of float and of your samplers.
+//   1. Put this text above main(), below #version and, in GLSL ES, below
+//      precision highp float; precision highp sampler3D; precision highp sampler2DArray;
 //   2. Set the switches that follow, or define them before this text.
 //   3. Bind a texture that `bake --encoding` or the library packed: repeat in all directions, linear filter.
 //   4. Call what your encoding needs (below) with the light in tangent space: +x along u, +y along v, +z outwards.
@@ -40,9 +41,9 @@
 #error "BUMPSHADOW_SAMPLE is 0 or 1"
 #endif
 //
-// Before: a normal-mapped shader                          After: three lines more
+// Before: a normal-mapped shader                          After: a few lines more
 //
-//   uniform sampler2D diffuse_map, normal_map;              uniform sampler3D horizons;   // 8 slices, slopes up to 4
+//   uniform sampler2D diffuse_map, normal_map;              uniform sampler3D horizons;   // 8 slices
 //   in vec2 uv;
 //   in vec3 to_light, to_eye;  // tangent space
 //   out vec4 color;
@@ -53,14 +54,15 @@
 //       float diffuse = max(dot(n, light), 0.0);
 //       float gloss = pow(max(dot(n, normalize(light + normalize(to_eye))), 0.0), 32.0);
 //       float shadow = shadow_map_factor();  // what you have
+//                                                           float max_slope = 4.0;  // as bake printed it
 //                                                           float w = bumpshadow_bearing(light.xy) + 0.5 / 8.0;
-//                                                           float horizon = texture(horizons, vec3(uv, w)).r * 4.0;
-//                                                           shadow *= bumpshadow_shadow(bumpshadow_level(light), horizon, 8.0);
+//                                                           shadow *= bumpshadow_shadow(bumpshadow_level(light) / max_slope,
+//                                                                                       texture(horizons, vec3(uv, w)).r, 8.0);
 //       color = vec4(base * (ambient + shadow * light_color * diffuse) + shadow * light_color * gloss, 1.0);
 //   }
 //
-// Encodings: what is sampled, and the horizon that it gives. Compare it with bumpshadow_level(light), either both over
-// what stands for 1 (max_slope) or both times that.
+// Encodings: what is sampled, and the horizon that it gives: over what stands for 1, so that it is compared with
+// bumpshadow_level(light) / max_slope (sines of 0 to 90 degrees: bumpshadow_level(light)).
 //   tangent volume   texture(volume, vec3(uv, bumpshadow_volume_coordinate(bumpshadow_bearing(light.xy), offset))).r
 //   slices, array    vec3 a = bumpshadow_tangent_layers(bearing, phase, N);
 //                    bumpshadow_tangent_horizon(texture(map, vec3(uv, a.x)).r, texture(map, vec3(uv, a.y)).r, a.z)

@@ -40,9 +40,9 @@
 #error "BUMPSHADOW_SAMPLE is 0 or 1"
 #endif
 //
-// Before: a normal-mapped shader                          After: three lines more
+// Before: a normal-mapped shader                          After: a few lines more
 //
-//   Texture2D diffuse_map, normal_map;                      Texture3D horizons;   // 8 slices, slopes up to 4
+//   Texture2D diffuse_map, normal_map;                      Texture3D horizons;   // 8 slices
 //   SamplerState linear_repeat;
 //   float4 main(float2 uv : TEXCOORD0, float3 to_light : TEXCOORD1, float3 to_eye : TEXCOORD2) : SV_Target {
 //       float3 light = normalize(to_light);
@@ -51,14 +51,15 @@
 //       float diffuse = max(dot(n, light), 0.0);
 //       float gloss = pow(max(dot(n, normalize(light + normalize(to_eye))), 0.0), 32.0);
 //       float shadow = shadow_map_factor();  // what you have
+//                                                           float max_slope = 4.0;  // as bake printed it
 //                                                           float w = bumpshadow_bearing(light.xy) + 0.5 / 8.0;
-//                                                           float horizon = horizons.Sample(linear_repeat, float3(uv, w)).r * 4.0;
-//                                                           shadow *= bumpshadow_shadow(bumpshadow_level(light), horizon, 8.0);
+//                                                           shadow *= bumpshadow_shadow(bumpshadow_level(light) / max_slope,
+//                                                                                       horizons.Sample(linear_repeat, float3(uv, w)).r, 8.0);
 //       return float4(base * (ambient + shadow * light_color * diffuse) + shadow * light_color * gloss, 1.0);
 //   }
 //
-// Encodings: what is sampled, and the horizon that it gives. Compare it with bumpshadow_level(light), either both over
-// what stands for 1 (max_slope) or both times that.
+// Encodings: what is sampled, and the horizon that it gives: over what stands for 1, so that it is compared with
+// bumpshadow_level(light) / max_slope (sines of 0 to 90 degrees: bumpshadow_level(light)).
 //   tangent volume   volume.Sample(how, float3(uv, bumpshadow_volume_coordinate(bumpshadow_bearing(light.xy), offset))).r
 //   slices, array    float3 a = bumpshadow_tangent_layers(bearing, phase, N);
 //                    bumpshadow_tangent_horizon(map.Sample(how, float3(uv, a.x)).r, map.Sample(how, float3(uv, a.y)).r, a.z)
