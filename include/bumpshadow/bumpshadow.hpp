@@ -30,6 +30,7 @@
 #include <bumpshadow/pixels.hpp>
 #include <bumpshadow/quantize.hpp>
 #include <bumpshadow/reference/lighting.hpp>
+#include <bumpshadow/reference/reflection.hpp>
 #include <bumpshadow/reference/sampler.hpp>
 #include <bumpshadow/reference/shade.hpp>
 #include <bumpshadow/reference/shadow.hpp>

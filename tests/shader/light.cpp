@@ -87,3 +87,15 @@ TEST_CASE("shader shadow factors") {
     CHECK(bumpshadow_shadow_soft(0.4f, 0.5f, infinity, 0.5f) == 0.0f);
     CHECK(bumpshadow_shadow_soft(1e6f, 0.5f, infinity, 0.5f) == 1.0f);
 }
+
+// The published pixel shader compares by `sub r0.a, v0, t2_bias` and `cnd` (greater than 0.5). Its normal comes from
+// t0, which is the diffuse map; t1, the normal map, is meant.
+TEST_CASE("shader: the published comparison of light and horizon") {
+    for (int light = 0; light <= 255; ++light)
+        for (int horizon = 0; horizon <= 255; ++horizon) {
+            if (light == horizon) continue;  // dark there, lit here
+            const float l = float(light) / 255.0f, h = float(horizon) / 255.0f;
+            const bool lit = l - (h - 0.5f) > 0.5f;
+            CHECK(shader::bumpshadow_shadow_hard(l, h) == (lit ? 1.0f : 0.0f));
+        }
+}

@@ -150,3 +150,17 @@ TEST_CASE("odd arguments give finite numbers") {
     CHECK(bumpshadow_ssbump_weights(vec3(0.0f)) == vec3(0.0f));
     CHECK(bumpshadow_ssbump_weights(vec3(0.0f, 0.0f, -1.0f)) == vec3(0.0f));
 }
+
+TEST_CASE("ssbump: swapping masks or basis changes the hand, and doing both undoes it") {
+    const glm::vec3 masks(0.2f, 0.5f, 0.9f);
+    const auto sum = [](glm::vec3 m, bool swapped) {
+        const glm::dvec3 first = basis[0], second = basis[swapped ? 2 : 1], third = basis[swapped ? 1 : 2];
+        return glm::vec3(first * double(m.x) + second * double(m.y) + third * double(m.z));
+    };
+    const glm::vec3 plain = sum(masks, false), other = bumpshadow_ssbump_other_hand(masks);
+    const glm::vec3 flipped(plain.x, -plain.y, plain.z);
+    CHECK(glm::length(bumpshadow_ssbump_sum(masks) - plain) < 1e-6f);
+    CHECK(glm::length(sum(other, false) - flipped) < 1e-6f);
+    CHECK(glm::length(sum(masks, true) - flipped) < 1e-6f);
+    CHECK(glm::length(sum(other, true) - plain) < 1e-6f);
+}
