@@ -1,4 +1,5 @@
 #include <bumpshadow/reference/shade.hpp>
+#include <bumpshadow/reference/shadow.hpp>
 
 #include <array>
 #include <cmath>

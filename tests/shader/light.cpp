@@ -31,7 +31,7 @@ TEST_CASE("shader bearings are those that the slices are baked for") {
         const double angle = 2.0 * std::numbers::pi * i / 20000.0, length = std::pow(10.0, i % 13 - 6);
         const vec2 v(float(length * std::cos(angle)), float(length * std::sin(angle)));
         const auto compare = [&](int which, float of_shader, bearing_function function) {
-            worst[which] = std::max(worst[which], turns_apart(of_shader, to_bearing(function, v)));
+            worst[which] = std::max(worst[which], turns_apart(double(of_shader), double(to_bearing(function, v))));
             CHECK(of_shader >= -0.1250001f);
             CHECK(of_shader <= 0.875f);
         };
