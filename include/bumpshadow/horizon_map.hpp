@@ -103,10 +103,10 @@ struct bake_options {
     return {};
 }
 
-// Checks what all methods have in common; costs nothing that grows with the map.
+// Checks what is to be baked, but for the region.
 template <height_sample Sample>
-[[nodiscard]] status check_bake(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
-                                const horizon_map& out, const bake_options& options) {
+[[nodiscard]] status check_request(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
+                                   const bake_options& options) {
     if (status s = check(heights); !s) return s;
     if (directions.empty()) return {error::not_positive, "bearings", 0.0};
     if (options.steps <= 0) return {error::not_positive, "steps", double(options.steps)};
@@ -124,6 +124,14 @@ template <height_sample Sample>
             return {error::out_of_range, "curvature (negative needs a finite radius)",
                     options.curvature.x < 0.0 ? options.curvature.x : options.curvature.y, 0.0};
     }
+    return {};
+}
+
+// Checks what all methods have in common; costs nothing that grows with the map.
+template <height_sample Sample>
+[[nodiscard]] status check_bake(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
+                                const horizon_map& out, const bake_options& options) {
+    if (status s = check_request(heights, directions, options); !s) return s;
     const glm::ivec2 origin = options.region.origin, size = options.region.extent;
     if (!options.region.empty()) {
         if (origin.x < 0 || origin.x > heights.extent.x - size.x)

@@ -105,6 +105,49 @@ void for_arrays(const frames& both, slot& s, int steps, Array&& array) {
            p.levels[std::size_t(level)].occluder_size();  // rows of its occluders a unit of length
 }
 
+// Which rows of its occluders a level looks at: from a cell, the n-th row on is n - 1/2 rows away, since a cell's
+// center lies between two rows.
+struct far_rows {
+    std::int64_t first = 0;
+    int count = 0;
+
+    // Row that the cells of a row see as their n-th of these.
+    [[nodiscard]] std::int64_t seen_from(const level& l, bool down, std::int64_t row, std::int64_t n) const {
+        const std::int64_t ratio = l.rows_a_cell(), half = ratio / 2;
+        return down ? ratio * row + half - 1 + first + n : ratio * row + half - first - n;
+    }
+};
+
+// Those at distances in (from, to].
+[[nodiscard]] inline far_rows choose_far_rows(const pyramid& p, int level, const ray& r, double from, double to,
+                                              far_row* out) {
+    const double row_step = level_row_step(p, r, level);
+    far_rows rows;
+    rows.first = std::int64_t(std::floor(from * row_step + 0.5 + 1e-9)) + 1;
+    // The last one is the row nearest to where looking ends, and counts as being there.
+    const bool ends = to >= r.farthest;
+    const double last_row = std::floor(to * row_step + (ends ? 1.0 : 0.5) + 1e-9);
+    const auto last = std::int64_t((std::min)(last_row, double(rows.first + most_rows - 3)));
+    rows.count = int((std::max)(last - rows.first + 1, std::int64_t(0)));
+    for (int n = 0; n < rows.count; ++n) {
+        const double t = ends && rows.first + n == last ? to : (double(rows.first + n) - 0.5) / row_step;
+        out[n] = {float(1.0 / t), float(-r.bend * t)};
+    }
+    return rows;
+}
+
+// Columns of a level's occluders that the lanes of their row stand beside those that cells of the same lanes have,
+// which are `stride` apart. cells: the lattice of the cells
+[[nodiscard]] inline double shift_of_occluders(const level& l, const lattice& cells, std::int64_t row) {
+    const double tangent = 0.5 * cells.tangent, middle = 2.0 * l.stride * cells.middle + 0.5 * (2.0 * l.stride - 1.0);
+    return 0.5 * (l.stride - 1) + tangent * (double(row) - middle);
+}
+
+// From a level above 1 to cells so many columns of the base grid wide, whose parents looked from the distance `to` on.
+[[nodiscard]] inline interpolation parents_of_cells(const pyramid& p, const ray& r, int width, double to) {
+    return {.lanes = {0.5, -0.25, 0.0}, .spacing = 4.0 * width / (r.step.y * p.base.y), .nearest = to, .bend = r.bend};
+}
+
 // Finds what the cells of a level see at distances in (from, to], from row to row.
 template <bool Holes>
 class cells_pass {
@@ -116,21 +159,13 @@ public:
           down_(r.step.y > 0.0),
           found_(found),
           s_(s),
-          bring_{parent, {0.5, -0.25, 0.0}, 0.5,          0.5, 4.0 * l_.width / (r.step.y * p.base.y), to,
-                 r.bend, s.parent_line,     s.line_floats},
-          row_(found.at.first_row) {
-        // The n-th row on is n - 1/2 rows away, since a cell's center lies between two rows.
-        const double row_step = level_row_step(p, r, j);
-        first_ = std::int64_t(std::floor(from * row_step + 0.5 + 1e-9)) + 1;
-        // The last one is the row nearest to where looking ends, and counts as being there.
-        const bool ends = to >= r.farthest;
-        const double last_row = std::floor(to * row_step + (ends ? 1.0 : 0.5) + 1e-9);
-        const auto last = std::int64_t((std::min)(last_row, double(first_ + most_rows - 3)));
-        count_ = int((std::max)(last - first_ + 1, std::int64_t(0)));
-        for (int n = 0; n < count_; ++n) {
-            const double t = ends && first_ + n == last ? to : (double(first_ + n) - 0.5) / row_step;
-            s_.far[n] = {float(1.0 / t), float(-r.bend * t)};
-        }
+          bring_(parents_of_cells(p, r, l_.width, to)),
+          row_(found.at.first_row),
+          far_(choose_far_rows(p, j, r, from, to, s.far)),
+          count_(far_.count) {
+        bring_.parent = parent;
+        bring_.line = s.parent_line;
+        bring_.line_floats = s.line_floats;
         const int ratio = l_.rows_a_cell();
         window_ = count_ + 2 + ratio * (batch - 1);
         const int rows_together = (std::min)((count_ + 2) / ratio + 1, found.at.rows);
@@ -153,16 +188,15 @@ public:
 private:
     // Row that the cells of a row see as their n-th.
     [[nodiscard]] std::int64_t row_on(std::int64_t row, std::int64_t n) const {
-        const std::int64_t ratio = l_.rows_a_cell(), half = ratio / 2;
-        return down_ ? ratio * row + half - 1 + first_ + n : ratio * row + half - first_ - n;
+        return far_.seen_from(l_, down_, row, n);
     }
     // First lane of row m that any cells look at.
     [[nodiscard]] std::int64_t first_lane_of(std::int64_t m) const {
         const lattice& at = found_.at;
-        const std::int64_t last_row = at.first_row + at.rows - 1, last = first_ + count_ - 1;
+        const std::int64_t last_row = at.first_row + at.rows - 1, first = far_.first, last = first + count_ - 1;
         const int ratio = l_.rows_a_cell(), shift = l_.stride;  // ratio is 1 << shift
-        const std::int64_t a = down_ ? m - ratio / 2 + 1 - last : m - ratio / 2 + first_,
-                           b = down_ ? m - ratio / 2 + 1 - first_ : m - ratio / 2 + last;
+        const std::int64_t a = down_ ? m - ratio / 2 + 1 - last : m - ratio / 2 + first,
+                           b = down_ ? m - ratio / 2 + 1 - first : m - ratio / 2 + last;
         return (std::min)(at.first_lane(std::clamp(a >> shift, std::int64_t(at.first_row), last_row)),
                           at.first_lane(std::clamp((b + ratio - 1) >> shift, std::int64_t(at.first_row), last_row)));
     }
@@ -183,7 +217,7 @@ private:
                 if (slot < 0) slot += window_;
                 seen[r] = s_.lane_zero + (down_ ? slot : slot + window_);
             }
-            sample_row<1>(l_.origins, edge_, row, lanes[r], at.tangent * (double(row) - at.middle), at.count,
+            sample_row<1>(l_.origins, edge_, row, lanes[r], at.shift(row), at.count,
                           s_.heights + std::size_t(r) * s_.line_floats);
         }
         for (std::int64_t lane = begin; lane < end; lane += chunk)
@@ -192,8 +226,8 @@ private:
                                    to = (std::min)(lane + chunk, lanes[r] + at.count);
                 if (from >= to) continue;
                 const std::size_t i = std::size_t(r) * s_.line_floats + std::size_t(from - lanes[r]);
-                look_far({s_.ring, seen[r], down_ ? 1 : -1, from}, s_.far, first_, count_, int(to - from) / simd::width,
-                         s_.heights + i, s_.slopes + i, s_.inverses + i);
+                look_far({s_.ring, seen[r], down_ ? 1 : -1, from}, s_.far, far_.first, count_,
+                         int(to - from) / simd::width, s_.heights + i, s_.slopes + i, s_.inverses + i);
             }
     }
 
@@ -201,14 +235,12 @@ private:
     // window_ and on. Where their lane 0 lies is noted twice, so that rows that follow each other do so there, too.
     void make_rows(std::int64_t last_row) {
         const int stride = l_.stride;
-        const double tangent = 0.5 * found_.at.tangent,
-                     middle = 2.0 * stride * found_.at.middle + 0.5 * (2.0 * stride - 1.0);
         const std::int64_t end = (std::max)(row_on(last_row, 0), row_on(last_row, count_ - 1)) + 1;
         for (; made_ < end; ++made_) {
             const std::int64_t first = first_lane_of(made_);
             (stride == 2 ? sample_row<2> : sample_row<1>)(l_.occluders, edge_, made_, stride * first,
-                                                          0.5 * (stride - 1) + tangent * (double(made_) - middle),
-                                                          stride_, s_.ring + std::ptrdiff_t(next_slot_) * stride_);
+                                                          shift_of_occluders(l_, found_.at, made_), stride_,
+                                                          s_.ring + std::ptrdiff_t(next_slot_) * stride_);
             s_.lane_zero[next_slot_] = s_.lane_zero[next_slot_ + window_] =
                 std::ptrdiff_t(next_slot_) * stride_ - first;
             if (++next_slot_ == window_) next_slot_ = 0;
@@ -252,8 +284,8 @@ private:
     slot& s_;
     interpolation bring_;
     std::int64_t row_;
-    std::int64_t first_ = 0;  // which row of heights is the first that is looked at
-    int count_ = 0;
+    far_rows far_;
+    int count_;
     int window_ = 0, stride_ = 0;
     std::int64_t made_ = 0;
     int next_slot_ = 0;

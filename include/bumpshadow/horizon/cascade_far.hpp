@@ -29,12 +29,18 @@ struct lattice {
     double tangent = 0.0;  // columns a row
     double middle = 0.0;   // the row where lane i is column i
     double left = 0.0;     // first column that is wanted of every row
+    double columns = 0.0;  // how many are
     int first_row = 0, rows = 0;
     int count = 0;  // lanes, a multiple of the pack width
 
-    [[nodiscard]] std::int64_t first_lane(std::int64_t row) const {
+    // Columns that the lanes of a row stand beside those of the same number.
+    [[nodiscard]] double shift(std::int64_t row) const { return tangent * (double(row) - middle); }
+    [[nodiscard]] std::int64_t first_wanted(std::int64_t row) const {
         // Fused, so that it is the same number wherever a compiler inlines this.
-        const auto lane = std::int64_t(std::floor(std::fma(-tangent, double(row) - middle, left)));
+        return std::int64_t(std::floor(std::fma(-tangent, double(row) - middle, left)));
+    }
+    [[nodiscard]] std::int64_t first_lane(std::int64_t row) const {
+        const std::int64_t lane = first_wanted(row);
         return lane - ((lane % simd::width) + simd::width) % simd::width;
     }
 };
@@ -123,10 +129,12 @@ struct interpolation {
     float* line = nullptr;  // scratch: twice line_floats, each as many as a row of the parent has, and two chunks
     std::size_t line_floats = 0;
 
+    [[nodiscard]] double place_of_row(std::int64_t row) const { return (double(row) - row_start) * row_scale; }
+
     // Calls visit(i, a, b) for each pack of lanes from lane + i on.
     template <bool Holes, class Visit>
     void operator()(std::int64_t lane, std::int64_t row, int count, Visit&& visit) const {
-        const double y = (double(row) - row_start) * row_scale, above = std::floor(y);
+        const double y = place_of_row(row), above = std::floor(y);
         // Rounding must not depend on which lane is the first.
         const double shift = lanes.shift(row), part = shift - std::floor(shift);
         const int half = part < 0.5 ? 0 : 1;
@@ -155,7 +163,6 @@ struct interpolation {
                        : double_up<0>(blend_rows, odd_part, even_part, count, visit));
     }
 
-private:
     struct pair {
         simd::pack a, b;
     };
@@ -194,6 +201,7 @@ private:
         }
     };
 
+private:
     // Where a lane lies between the parent's.
     [[nodiscard]] place place_under(std::int64_t lane, double shift) const {
         const double x = lanes.scale * double(lane) + shift;
@@ -311,6 +319,10 @@ struct far_row {
 // The n-th row is so far away that `group_of` rows may share a distance, since that is only used to bring their slope
 // from a cell's height to those of its texels.
 inline constexpr int alone_before = 16, in_pairs_before = 32;
+[[nodiscard]] constexpr int group_of(std::int64_t row, std::int64_t rows_left) {
+    const int size = row < alone_before ? 1 : row < in_pairs_before ? 2 : 4;
+    return rows_left < size ? 1 : size;
+}
 
 // Rows of heights on the same lanes, one after the other.
 struct sampled_rows {
@@ -328,17 +340,17 @@ template <int Packs>
 inline void look_far_from(const sampled_rows& rows, const far_row* far, std::int64_t first, int count,
                           const float* heights, float* slopes, float* inverses) {
     using simd::pack;
-    pack depth[Packs], best[Packs], best_inverse[Packs];
+    pack own[Packs], best[Packs], best_inverse[Packs];
     for (int u = 0; u < Packs; ++u) {
-        depth[u] = simd::subtract(simd::splat(0.0f), simd::load(heights + u * simd::width));
+        own[u] = simd::load(heights + u * simd::width);
         best[u] = simd::splat(hole);
         best_inverse[u] = simd::splat(0.0f);
     }
     int n = 0;
     const auto slope = [&](int i, int u) {
-        const pack inverse = simd::splat(far[i].inverse);
-        const pack below = simd::multiply_add(depth[u], inverse, simd::splat(far[i].bend));
-        return simd::multiply_add(simd::load(rows.row(i) + u * simd::width), inverse, below);
+        // The difference first, so that all of a plateau makes the same slope: the nearest is taken, fused or not.
+        const pack rise = simd::subtract(simd::load(rows.row(i) + u * simd::width), own[u]);
+        return simd::multiply_add(rise, simd::splat(far[i].inverse), simd::splat(far[i].bend));
     };
     const auto look_in_groups = [&]<int Size>(std::int64_t before) {
         for (; n + Size <= count && first + n < before; n += Size) {

@@ -161,32 +161,38 @@ private:
     int filled_ = 0, limit_ = block_rows, first_ = 0, x_ = 0, count_ = 0;
 };
 
+// From level 1 to texels. tangent: columns a row of the base grid
+[[nodiscard]] inline interpolation parents_of_texels(const pyramid& p, const ray& r, double tangent) {
+    const glm::dvec2 base = p.base;
+    const int width = p.levels[1].width, height = 2 * width;
+    return {
+        .lanes = {base.x / width,
+                  pyramid::in_cells(0.5 * base.x - 0.5, width) - tangent * (0.5 * base.y - 0.5 - p.middle(1)) / width,
+                  -tangent * base.y / width},
+        .row_scale = base.y / height,
+        .row_start = 0.5 * height / base.y - 0.5,
+        .spacing = height / (r.step.y * base.y),
+        .nearest = p.near / std::abs(r.step.y),
+        .bend = r.bend};
+}
+
+// Inverse of the distance at which a ray leaves an open map, on the side that it goes to; a quarter of it is added,
+// since what a cell sees on the border may be as much farther away for it than for its texels.
+[[nodiscard]] inline float inverse_of_end(double step, int at, int texels_of_axis) {
+    const double way = step > 0.0 ? texels_of_axis - 1 - at : at;
+    return step == 0.0 ? 0.0f : way > 0.0 ? float(0.8 * std::abs(step) / way) : inverse_of_zero;
+}
+
 // Bakes a rectangle of texels, in the coordinates of its frame, from what their parents see.
 template <bool Holes, bool Track>
 void look_from_texels(const pyramid& p, const ray& r, rectangle texels, float floor, const pairs* parent,
                       double tangent, slot& s, writer& to) {
-    const glm::dvec2 base = p.base;
-    const int width = p.levels[1].width, height = 2 * width;
-    const interpolation bring{
-        parent,
-        {base.x / width,
-         pyramid::in_cells(0.5 * base.x - 0.5, width) - tangent * (0.5 * base.y - 0.5 - p.middle(1)) / width,
-         -tangent * base.y / width},
-        base.y / height,
-        0.5 * height / base.y - 0.5,
-        height / (r.step.y * base.y),
-        p.near / std::abs(r.step.y),
-        r.bend,
-        s.parent_line,
-        s.line_floats};
+    interpolation bring = parents_of_texels(p, r, tangent);
+    bring.parent = parent;
+    bring.line = s.parent_line;
+    bring.line_floats = s.line_floats;
     const glm::ivec2 end = texels.origin + texels.extent;
     const bool open = Holes && p.edge == edge_mode::open;
-    // Inverse of the distance at which a ray leaves an open map, on the side that it goes to; a quarter of it is added,
-    // since what a cell sees on the border may be as much farther away for it than for its texels.
-    const auto inverse_of_end = [](double step, int at, int texels_of_axis) {
-        const double way = step > 0.0 ? texels_of_axis - 1 - at : at;
-        return step == 0.0 ? 0.0f : way > 0.0 ? float(0.8 * std::abs(step) / way) : inverse_of_zero;
-    };
     float end_of_columns[strip + chunk];
     for (int x = texels.origin.x; x < end.x; x += strip) {
         const int count = (std::min)(strip, end.x - x);
@@ -245,38 +251,72 @@ struct heading {
     return {d, transposed ? swapped(step) : step, transposed};
 }
 
-// Bakes some texels in one direction.
-template <bool Holes>
-void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texels, slot& s) {
-    const heading h = head(direction, j.both[0].spacing);
-    const pyramid& p = j.both[h.transposed ? 1 : 0];
-    const double curvature = curvature_along(j.options.curvature, h.unit_direction) * p.unit;
-    const bool never_negative = horizon_is_never_negative(p.edge, j.options.radius, curvature);
-    ray r{.step = h.step, .bend = 0.5 * curvature};
-    r.farthest = farthest_distance(j, p, h.step, never_negative);
-    const reach range = plan_reach(p, r, j.options.steps);
-    if (h.transposed) texels = {swapped(texels.origin), swapped(texels.extent)};
+// A direction in the frame that it needs, and how far is looked.
+struct aim {
+    heading head;
+    bool never_negative = true;
+    ray along = {};
+    reach range = {};
+};
+[[nodiscard]] inline aim take_aim(const job& j, glm::dvec2 direction) {
+    aim a{.head = head(direction, j.both[0].spacing)};
+    const pyramid& p = j.both[a.head.transposed ? 1 : 0];
+    const double curvature = curvature_along(j.options.curvature, a.head.unit_direction) * p.unit;
+    a.never_negative = horizon_is_never_negative(p.edge, j.options.radius, curvature);
+    a.along = {.step = a.head.step, .bend = 0.5 * curvature};
+    a.along.farthest = farthest_distance(j, p, a.head.step, a.never_negative);
+    a.range = plan_reach(p, a.along, j.options.steps);
+    return a;
+}
 
-    // Each level needs the cells around those of the level below.
+// The looks of texels.
+inline void choose_near_looks(const pyramid& p, const aim& a, int steps, bool holes, looks& out) {
+    const double near = p.near / std::abs(a.head.step.y);
+    const double inside = p.narrow ? 1.0 / 3.0 : 0.25;  // part of it where more than rows is looked at
+    choose_looks(a.along, p.texels, p.edge, a.range.to[0], near * inside, 0.5 * near * inside, holes,
+                 most_looks(steps) - 2, out);
+}
+
+// So that no row is left out that a texel takes for the one above or below it.
+inline constexpr double row_rounding = 1e-9;
+
+// The cells of each level that texels need: those around the ones of the level below.
+//   tangent: columns a row of the base grid
+[[nodiscard]] inline std::array<lattice, most_levels> place_lattices(const pyramid& p, rectangle texels, int top,
+                                                                     double tangent) {
     std::array<lattice, most_levels> at{};
-    const double tangent = r.tangent() * p.base.x / p.base.y;
     glm::dvec2 first = (glm::dvec2(texels.origin) + 0.5) * p.base - 0.5;
     glm::dvec2 last = (glm::dvec2(texels.origin + texels.extent) - 0.5) * p.base - 0.5;
-    constexpr double rounding = 1e-9;  // so that no row is left out that a texel takes for the one above or below it
     const double lean = (std::max)(std::abs(2.0 * tangent), 1.0);
-    for (int i = 1; i <= range.top; ++i) {
+    for (int i = 1; i <= top; ++i) {
         const int width = i == 1 ? p.levels[1].width : 2, height = i == 1 ? 2 * width : 2;
         first = {pyramid::in_cells(first.x, width) - 1.0 - lean,
-                 std::floor(pyramid::in_cells(first.y, height) - rounding)};
+                 std::floor(pyramid::in_cells(first.y, height) - row_rounding)};
         last = {pyramid::in_cells(last.x, width) + 2.0 + lean,
-                std::floor(pyramid::in_cells(last.y, height) + rounding) + 1.0};
+                std::floor(pyramid::in_cells(last.y, height) + row_rounding) + 1.0};
         at[std::size_t(i)] = {2.0 * tangent,
                               p.middle(2 * p.levels[std::size_t(i)].width),
                               first.x,
+                              last.x - first.x,
                               int(first.y),
                               int(last.y - first.y) + 1,
                               lanes_for(last.x - first.x)};
     }
+    return at;
+}
+
+// Bakes some texels in one direction.
+template <bool Holes>
+void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texels, slot& s) {
+    const aim a = take_aim(j, direction);
+    const heading& h = a.head;
+    const ray& r = a.along;
+    const reach& range = a.range;
+    const pyramid& p = j.both[h.transposed ? 1 : 0];
+    if (h.transposed) texels = {swapped(texels.origin), swapped(texels.extent)};
+
+    const double tangent = r.tangent() * p.base.x / p.base.y;
+    const std::array<lattice, most_levels> at = place_lattices(p, texels, range.top, tangent);
     // All of the levels above 1 first; then level 1 and the texels in step, so that what both look at is still cached.
     const auto pass = [&](int i, const pairs* parent) {
         pairs found{.at = at[std::size_t(i)]};
@@ -291,11 +331,8 @@ void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texe
         cells.advance(std::numeric_limits<std::int64_t>::max());
         parent = found;
     }
-    const double near = p.near / std::abs(h.step.y);
-    const double inside = p.narrow ? 1.0 / 3.0 : 0.25;  // part of it where more than rows is looked at
-    choose_looks(r, p.texels, p.edge, range.to[0], near * inside, 0.5 * near * inside, Holes,
-                 most_looks(j.options.steps) - 2, s.near);
-    const float floor = never_negative ? 0.0f : hole;
+    choose_near_looks(p, a, j.options.steps, Holes, s.near);
+    const float floor = a.never_negative ? 0.0f : hole;
     writer to(j, bearing, h.transposed, s.block);
     const auto look = [&](rectangle band, const pairs* above) {
         if (j.options.distances.values.empty())
@@ -313,7 +350,8 @@ void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texe
             const rectangle band{{texels.origin.x, texels.origin.y + y},
                                  {texels.extent.x, (std::min)(band_rows, texels.extent.y - y)}};
             const double last_row = (band.origin.y + band.extent.y - 0.5) * p.base.y - 0.5;
-            cells.advance(std::int64_t(std::floor(pyramid::in_cells(last_row, 2 * p.levels[1].width) + rounding)) + 2);
+            cells.advance(std::int64_t(std::floor(pyramid::in_cells(last_row, 2 * p.levels[1].width) + row_rounding)) +
+                          2);
             look(band, &found);
         }
     }
