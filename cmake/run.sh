@@ -44,6 +44,7 @@ look_for_header() { has_header "$1" || headers="$headers $2"; }
 look_for_shader_tools() {
     has_tool glslangValidator || others="$others glslang-tools"
     has_tool spirv-cross || others="$others spirv-cross"
+    has_tool spirv-opt || others="$others spirv-tools"
     has_renderer || others="$others libgl1-mesa-dri"
     look_for_header EGL/egl.h libegl-dev
     look_for_header GL/glcorearb.h libgl-dev

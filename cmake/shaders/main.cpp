@@ -1,5 +1,6 @@
-// shaders FOLDER [--check]: makes bumpshadow.glsl, bumpshadow.hlsl and snippets_text.hpp in include/bumpshadow/shader
-// from the single source beside them. With --check writes nothing and fails where a file is not what would be written.
+// shaders FOLDER [--check]: makes bumpshadow.glsl, bumpshadow.hlsl, snippets_text.hpp, bumpshadow_bake.glsl and
+// bumpshadow_bake.hlsl in include/bumpshadow/shader from the single source beside them. With --check writes nothing and
+// fails where a file is not what would be written.
 
 #include <cstdint>
 #include <cstdio>
@@ -38,6 +39,14 @@ std::string flattened(const source& all) {
             text += all.snippets[std::size_t(i)].comment + all.snippets[std::size_t(i)].code + '\n';
     }
     text.pop_back();
+    return text;
+}
+
+// The compute kernel, in GLSL.
+std::string kernel(const std::filesystem::path& folder) {
+    constexpr std::string_view mark = "BUMPSHADOW_FUNCTION ";
+    std::string text = read_text(folder / "bake.h");
+    for (std::size_t at; (at = text.find(mark)) != std::string::npos;) text.erase(at, mark.size());
     return text;
 }
 
@@ -88,11 +97,13 @@ int main(int argc, char** argv) try {
     const std::filesystem::path project = arguments[0];
     const std::filesystem::path folder = project / "include/bumpshadow/shader", templates = project / "cmake/shaders";
     const source all = read_source(folder);
-    const std::string glsl = flattened(all);
+    const std::string glsl = flattened(all), bake = kernel(folder);
     const std::string files[][2] = {
         {"bumpshadow.glsl", replace(read_text(templates / "bumpshadow.glsl.in"), "@snippets@\n", glsl)},
         {"bumpshadow.hlsl", replace(read_text(templates / "bumpshadow.hlsl.in"), "@snippets@\n", hlsl(glsl))},
         {"snippets_text.hpp", table(all)},
+        {"bumpshadow_bake.glsl", replace(read_text(templates / "bumpshadow_bake.glsl.in"), "@kernel@\n", bake)},
+        {"bumpshadow_bake.hlsl", replace(read_text(templates / "bumpshadow_bake.hlsl.in"), "@kernel@\n", hlsl(bake))},
     };
     int stale = 0;
     for (const auto& [name, text] : files) {

@@ -121,8 +121,17 @@ source read_source(const std::filesystem::path& folder) {
 
 std::string hlsl(std::string_view glsl) {
     constexpr std::string_view names[][2] = {
-        {"vec2", "float2"}, {"vec3", "float3"}, {"vec4", "float4"},   {"ivec2", "int2"},        {"ivec3", "int3"},
-        {"mix", "lerp"},    {"fract", "frac"},  {"mat3", "float3x3"}, {"inversesqrt", "rsqrt"},
+        {"vec2", "float2"},
+        {"vec3", "float3"},
+        {"vec4", "float4"},
+        {"ivec2", "int2"},
+        {"ivec3", "int3"},
+        {"ivec4", "int4"},
+        {"mix", "lerp"},
+        {"fract", "frac"},
+        {"mat3", "float3x3"},
+        {"inversesqrt", "rsqrt"},
+        {"intBitsToFloat", "asfloat"},
     };
     std::string text;
     for_words(

@@ -193,12 +193,14 @@ std::string build(resources& r, std::initializer_list<stage> stages) {
     return {};
 }
 
-// Sets the sampler NAME and those that spirv-cross makes of an HLSL texture NAME: one for reads with NAME_sampler, one
-// for reads without a sampler. False: the program reads none of them.
-bool set_unit(GLuint program, const std::string& name, GLint unit) {
+// Sets the sampler NAME and those that spirv-cross makes of an HLSL texture NAME: one for reads with each
+// OTHER_sampler, one for reads without a sampler. False: the program reads none of them.
+bool set_unit(GLuint program, const std::string& name, std::span<const bound_texture> others, GLint unit) {
     const std::string combined = "SPIRV_Cross_Combined" + name;
+    std::vector<std::string> candidates = {name, combined + "SPIRV_Cross_DummySampler"};
+    for (const bound_texture& other : others) candidates.push_back(combined + other.name + "_sampler");
     bool read = false;
-    for (const std::string& candidate : {name, combined + name + "_sampler", combined + "SPIRV_Cross_DummySampler"}) {
+    for (const std::string& candidate : candidates) {
         const GLint location = f.GetUniformLocation(program, candidate.c_str());
         if (location < 0) continue;
         f.Uniform1i(location, unit);
@@ -213,7 +215,7 @@ std::string bind(const context& gl, resources& r, std::span<const bound_texture>
     for (const auto& [name, texture, how] : textures) {
         if (const auto s = bumpshadow::check(texture); !s) return name + ": " + s.message().c_str();
         if (!gl.supports(texture.layout, how)) return name + ": the driver has no such textures";
-        if (!set_unit(r.program, name, unit)) continue;
+        if (!set_unit(r.program, name, textures, unit)) continue;
         f.ActiveTexture(GLenum(GL_TEXTURE0 + unit++));
         r.textures.push_back(upload(texture, how));
     }
@@ -335,14 +337,10 @@ image run_fragment(const context& gl, std::string_view shader, glm::ivec2 extent
     return result;
 }
 
-std::string run_compute(const context& gl, std::string_view shader, glm::ivec3 groups,
-                        std::span<const bound_buffer> buffers, std::span<const bound_texture> textures) {
-    gl.make_current();
-    resources r;
-    std::string error = build(r, {{GL_COMPUTE_SHADER, shader}});
-    if (error.empty()) error = bind(gl, r, textures);
-    if (!error.empty()) return error;
+namespace {
 
+// Storage buffers at bindings 0, 1 ... and uniform blocks likewise.
+void bind(resources& r, std::span<const bound_buffer> buffers) {
     GLuint bindings[2] = {};
     r.buffers.resize(buffers.size());
     f.GenBuffers(GLsizei(buffers.size()), r.buffers.data());
@@ -351,7 +349,9 @@ std::string run_compute(const context& gl, std::string_view shader, glm::ivec3 g
         f.BindBufferBase(target, bindings[buffers[i].constant ? 1 : 0]++, r.buffers[i]);
         f.BufferData(target, GLsizeiptr(buffers[i].bytes.size()), buffers[i].bytes.data(), GL_DYNAMIC_COPY);
     }
-    f.DispatchCompute(GLuint(groups.x), GLuint(groups.y), GLuint(groups.z));
+}
+
+std::string read_back(const resources& r, std::span<const bound_buffer> buffers) {
     f.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     GLuint binding = 0;
     for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -365,6 +365,36 @@ std::string run_compute(const context& gl, std::string_view shader, glm::ivec3 g
         f.UnmapBuffer(GL_SHADER_STORAGE_BUFFER);
     }
     return last_error();
+}
+
+}  // namespace
+
+std::string run_compute(const context& gl, std::string_view shader, glm::ivec3 groups,
+                        std::span<const bound_buffer> buffers, std::span<const bound_texture> textures) {
+    gl.make_current();
+    resources r;
+    std::string error = build(r, {{GL_COMPUTE_SHADER, shader}});
+    if (error.empty()) error = bind(gl, r, textures);
+    if (!error.empty()) return error;
+    bind(r, buffers);
+    f.DispatchCompute(GLuint(groups.x), GLuint(groups.y), GLuint(groups.z));
+    return read_back(r, buffers);
+}
+
+std::string run_dispatches(const context& gl, std::string_view shader, std::span<const dispatch> dispatches,
+                           int constants_binding, std::span<const bound_buffer> buffers) {
+    gl.make_current();
+    resources r;
+    if (std::string error = build(r, {{GL_COMPUTE_SHADER, shader}}); !error.empty()) return error;
+    bind(r, buffers);
+    f.GenBuffers(1, &r.buffers.emplace_back());
+    f.BindBufferBase(GL_UNIFORM_BUFFER, GLuint(constants_binding), r.buffers.back());
+    for (const dispatch& d : dispatches) {
+        f.BufferData(GL_UNIFORM_BUFFER, GLsizeiptr(d.constants.size()), d.constants.data(), GL_STREAM_DRAW);
+        f.DispatchCompute(GLuint(d.groups.x), GLuint(d.groups.y), GLuint(d.groups.z));
+        f.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+    return read_back(r, buffers);
 }
 
 }  // namespace gl

@@ -76,4 +76,14 @@ struct bound_buffer {
                                       std::span<const bound_buffer> buffers,
                                       std::span<const bound_texture> textures = {});
 
+struct dispatch {
+    std::span<const std::byte> constants;  // of a uniform block
+    glm::ivec3 groups{1};
+};
+
+// Runs one compute shader again and again, with a barrier between.
+[[nodiscard]] std::string run_dispatches(const context& gl, std::string_view shader,
+                                         std::span<const dispatch> dispatches, int constants_binding,
+                                         std::span<const bound_buffer> buffers);
+
 }  // namespace gl

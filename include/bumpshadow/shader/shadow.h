@@ -12,8 +12,8 @@ BUMPSHADOW_FUNCTION float bumpshadow_shadow_soft_above(float light, float horizo
     return clamp(min(k, 1e30f) * (light - horizon) + c, 0.0f, 1.0f);
 }
 
-// The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2019, equation 5.4); c = 0.5:
-// it is centered. k from 0 to infinity.
+// The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2019, equation 5.4); c
+// = 0.5: it is centered. k from 0 to infinity.
 BUMPSHADOW_FUNCTION float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
     return light >= 0.0f ? bumpshadow_shadow_soft_above(light, horizon, k, c) : 0.0f;
 }

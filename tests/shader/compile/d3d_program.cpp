@@ -1,6 +1,6 @@
-// d3d LIBRARY FILE [ENTRY PROFILE]...: compiles an HLSL file with d3dcompiler_47.dll or dxcompiler.dll, which are
-// Windows libraries; warnings are errors. Prints "PROFILE: compiled, N bytes" or what the compiler says. Built by the
-// test that runs it, with a compiler for Windows.
+// d3d LIBRARY [FILE ENTRY PROFILE]...: compiles HLSL files with d3dcompiler_47.dll or dxcompiler.dll, which are Windows
+// libraries; warnings are errors. Prints "FILE PROFILE: compiled, N bytes", or "FILE PROFILE: failed" and what the
+// compiler says. Built by the test that runs it, with a compiler for Windows.
 
 #include <windows.h>
 // The rest needs the types above.
@@ -46,9 +46,9 @@ constexpr GUID result_interface = {0x58346cda, 0xdde7, 0x4497, {0x94, 0x61, 0x6f
 
 bool say(const char* profile, bool good, SIZE_T bytes, const void* messages, SIZE_T length) {
     if (good)
-        std::printf("%s: compiled, %u bytes\n", profile, unsigned(bytes));
+        std::printf(" %s: compiled, %u bytes\n", profile, unsigned(bytes));
     else
-        std::printf("%s: failed\n", profile);
+        std::printf(" %s: failed\n", profile);
     std::printf("%.*s", int(length), static_cast<const char*>(messages));
     return good;
 }
@@ -88,6 +88,16 @@ bool compile_dxc(HMODULE library, const std::string& text, const char* entry, co
                messages ? messages->GetBufferPointer() : "", messages ? messages->GetBufferSize() : 0);
 }
 
+std::string text_of(const char* path) {
+    std::string text;
+    if (std::FILE* const file = std::fopen(path, "rb")) {
+        char block[4096];
+        for (std::size_t n; (n = std::fread(block, 1, sizeof block, file)) > 0;) text.append(block, n);
+        std::fclose(file);
+    }
+    return text;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -97,15 +107,11 @@ int main(int argc, char** argv) {
         std::printf("%s does not load: error %lu\n", argv[1], GetLastError());
         return 2;
     }
-    std::string text;
-    if (std::FILE* const file = std::fopen(argv[2], "rb")) {
-        char block[4096];
-        for (std::size_t n; (n = std::fread(block, 1, sizeof block, file)) > 0;) text.append(block, n);
-        std::fclose(file);
-    }
     const bool fxc = GetProcAddress(library, "D3DCompile") != nullptr;
     bool good = true;
-    for (int i = 3; i + 1 < argc; i += 2)
-        good &= (fxc ? compile_fxc : compile_dxc)(library, text, argv[i], argv[i + 1]);
+    for (int i = 2; i + 2 < argc; i += 3) {
+        std::printf("%s", argv[i]);
+        good &= (fxc ? compile_fxc : compile_dxc)(library, text_of(argv[i]), argv[i + 1], argv[i + 2]);
+    }
     return good ? 0 : 1;
 }

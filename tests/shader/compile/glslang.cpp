@@ -7,23 +7,14 @@
 #include <doctest/doctest.h>
 
 #include "shader/compile/calls.hpp"
+#include "shader/compile/shaders.hpp"
 #include "support/skip.hpp"
 #include "support/tool.hpp"
 
+using shaders_under_test::glsl_version;
+using shaders_under_test::versions;
+
 namespace {
-
-struct glsl_version {
-    const char *name, *header;
-    bool compute, vulkan;
-};
-
-constexpr glsl_version versions[] = {
-    {"330", "#version 330 core\n#define IN in\n", false, false},
-    {"450", "#version 450 core\n#define IN in\n", true, false},
-    {"300 es", "#version 300 es\nprecision highp float;\n#define IN in\n", false, false},
-    {"310 es", "#version 310 es\nprecision highp float;\n#define IN in\n", true, false},
-    {"Vulkan", "#version 450\n#define IN layout(location = 0) in\n", true, true},
-};
 
 bool silent(const tool::outcome& result) { return result.good && result.output.find("WARNING") == std::string::npos; }
 
