@@ -10,6 +10,7 @@
 #include <bumpshadow/encode/emboss.hpp>
 #include <bumpshadow/encode/emboss_shift.hpp>
 #include <bumpshadow/encode/fourier.hpp>
+#include <bumpshadow/encode/fourier_mips.hpp>
 #include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/encode/reduce.hpp>
 #include <bumpshadow/encode/sine_layers.hpp>
@@ -36,6 +37,7 @@
 #include <bumpshadow/reference/shadow.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>
 #include <bumpshadow/reference/triangle.hpp>
+#include <bumpshadow/shader/bake_plan.hpp>
 #include <bumpshadow/shader/shader.hpp>
 #include <bumpshadow/status.hpp>
 #include <bumpshadow/texture.hpp>

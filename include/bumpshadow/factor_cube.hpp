@@ -58,21 +58,7 @@ struct cube_coordinate {
     glm::dvec2 st;
 };
 
-// Where a direction meets the cube; any finite length. On an edge z wins over y and y over x, as in Vulkan. (0, 0, 0)
-// gives the middle of +z.
-[[nodiscard]] inline cube_coordinate to_cube(glm::dvec3 direction) {
-    const double x = direction.x, y = direction.y, z = direction.z;
-    const double a = std::abs(x), b = std::abs(y), c = std::abs(z);
-    const auto at = [](int face, double s, double t, double major) -> cube_coordinate {
-        if (major == 0.0) return {face, {0.5, 0.5}};
-        return {face, {0.5 * (s / major + 1.0), 0.5 * (t / major + 1.0)}};
-    };
-    if (c >= a && c >= b) return z >= 0.0 ? at(4, x, -y, c) : at(5, -x, -y, c);
-    if (b >= a) return y >= 0.0 ? at(2, x, z, b) : at(3, x, -z, b);
-    return x >= 0.0 ? at(0, -z, -y, a) : at(1, z, -y, a);
-}
-
-// Its inverse: a direction whose largest component is 1.
+// The direction to it, whose largest component is 1.
 [[nodiscard]] inline glm::dvec3 from_cube(const cube_coordinate& place) {
     const double s = 2.0 * place.st.x - 1.0, t = 2.0 * place.st.y - 1.0;
     switch (place.face) {

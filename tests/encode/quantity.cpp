@@ -26,7 +26,8 @@ TEST_CASE("quantity: there and back, and what is stored") {
     for (const quantity stored : {quantity::slope, quantity::sine, quantity::angle})
         for (const float slope : {-20.0f, -1.0f, -1e-4f, 0.0f, 1e-6f, 0.1f, 1.0f, 3.0f, 30.0f}) {
             CAPTURE(int(stored));
-            CHECK(slope_of_quantity(stored, quantity_of_slope(stored, slope)) == doctest::Approx(double(slope)).epsilon(1e-3));
+            CHECK(slope_of_quantity(stored, quantity_of_slope(stored, slope)) ==
+                  doctest::Approx(double(slope)).epsilon(1e-3));
         }
     for (const quantity stored : {quantity::slope, quantity::sine, quantity::angle}) {
         const horizon_scale scale{stored, 4.0f};

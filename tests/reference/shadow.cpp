@@ -229,6 +229,26 @@ TEST_CASE("light of every length and direction, with every encoding") {
     }
 }
 
+// No encoder takes a max_slope of 0; a program that lets it be set meets one all the same.
+TEST_CASE("a max_slope that is next to nothing, and 0") {
+    const horizons map({4, 4}, 12, bearing_function::cubic, [](int, int, double) { return 1.0; });
+    tangent_volume e;
+    e.slices = {12, 0.0, bearing_function::cubic};
+    stored t(layout_of(e, {4, 4}));
+    REQUIRE(bool(pack_tangent_volume(map.map, map.directions, e, {.fit = slice_fit::point}, t)));
+    for (const quantity q : {quantity::slope, quantity::sine, quantity::angle})
+        for (const float max_slope : {0.0f, 1e-45f, 1e-38f, 1e-30f, 1e-20f})
+            for (const float k : {0.0f, 1e-40f, 8.0f, 1e38f, infinite})
+                for (const double elevation : {-90.0, -1.0, 0.0, 1e-9, 30.0, 89.9999, 90.0}) {
+                    e.scale = {q, max_slope};
+                    for (const glm::vec3 light : {toward(0.3, elevation), glm::vec3(0.0f), glm::vec3(0, 0, 1)}) {
+                        const float f = shadow_factor(e, const_texture(t), {}, middle, light, {k, 1.0f});
+                        CHECK(f >= 0.0f);
+                        CHECK(f <= 1.0f);
+                    }
+                }
+}
+
 TEST_CASE("a light on the horizon is lit, and half lit with a centered edge") {
     // Where nothing occludes, the horizon is exactly 0, and so is a light in the surface.
     const every_encoding flat({4, 4}, [](int, int, double) { return no_horizon; });

@@ -173,9 +173,9 @@ inline void decode_bc4(const std::byte* block, float* values) {
 
 // A block of 16 values in [0, 1]: a search for the ends that make the squared error small, in both forms of the block.
 // Deterministic. Blocks of one value hold the nearest 8 bits; the sum of squares is never above what ends at the
-// extremes make, whose error is up to 1/14 of the block's range. Accuracy: root mean square of 8 fitted slices of
-// twelve maps 0.6 to 2.5 in 255, which is 17 to 31 % less than stb_dxt's, and within 6 % in squares of trying all ends.
-// 28 to 62 ns a texel with 512-bit vectors, 10 times stb_dxt's.
+// extremes make, whose error is up to 1/14 of the block's range. Accuracy: within 6 % in squares of trying all
+// ends. 8 and 16 fitted slices are wrong (lit or shadowed) for 2.98 and 1.61 % of lights (mean of six maps), by stb_dxt
+// for 3.10 and 1.76 %. Takes about 60 ns a value on one core with 512-bit vectors.
 inline void encode_bc4(const float* values, std::byte* block) {
     using namespace bc4_detail;
     float bytes[16];

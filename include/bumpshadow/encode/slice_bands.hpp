@@ -33,6 +33,10 @@ struct pack_report {
 struct pack_options {
     slice_fit fit = slice_fit::least_squares;
     pack_report* report = nullptr;
+    // Row of level 0 of the texture that the horizons' first row is, so that a map may be packed in bands of rows, each
+    // baked with bake_options::region: memory is then O(width * directions * rows of the band). The bytes are those of
+    // packing the whole map. Looked at by the functions named pack_; 0 for several levels; for bc4 a multiple of 4.
+    int first_row = 0;
     // As in bake_options. Sizes: slice_scratch_size.
     std::span<std::byte> scratch = {};
     std::pmr::memory_resource* memory = nullptr;
@@ -54,6 +58,13 @@ struct slice_rows {
 namespace slice_detail {
 
 inline constexpr int rows_of_item = 16;
+
+// most = max(most, value), from any thread.
+inline void raise(std::atomic<float>& most, float value) {
+    float seen = most.load(std::memory_order_relaxed);
+    while (value > seen && !most.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+    }
+}
 
 // 1 / sqrt(1 + s^2) on [0, 1e18]; relative error 8e-7. std::sqrt may set errno, which keeps loops from being
 // vectorized. Source of the constants: Kadlec, Improving the fast inverse square root (2010).
@@ -247,10 +258,7 @@ template <class MakePlan, class Source, executor Executor, class Sink>
             sink(slice_rows{y, here, values, row_step, step});
         }
         clamped.fetch_add(seen.clamped, std::memory_order_relaxed);
-        float highest = steepest.load(std::memory_order_relaxed);
-        while (seen.steepest > highest &&
-               !steepest.compare_exchange_weak(highest, seen.steepest, std::memory_order_relaxed)) {
-        }
+        raise(steepest, seen.steepest);
     });
     if (options.report != nullptr) *options.report = {clamped.load(), steepest.load()};
     return {};

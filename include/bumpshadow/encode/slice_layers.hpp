@@ -61,8 +61,9 @@ struct slice_layers {
 
 // Packs horizons in `directions` (evenly spaced ones serve best) into a texture of the layout that layout_of gives.
 //   levels: the map itself and its mips, if any, all in the same directions: those of fit_slices and make_mips, packed
-//           by points
+//           by points. A map without mips may be a band of the texture's rows (options.first_row)
 //   report: sums over the levels
+// Memory: the horizons, O(width * directions * rows of the band), and the scratch.
 // Bound of |decoded - value|: 1/510. Scratch: slice_scratch_size of level 0. Errors: those of for_slice_bands, and a
 // texture of another layout.
 template <executor Executor = serial>
@@ -71,31 +72,23 @@ template <executor Executor = serial>
                                        Executor&& execute = {}) {
     if (status s = check(encoding); !s) return s;
     if (levels.empty()) return {error::missing, "levels"};
-    if (status s = check_layout(out, layout_of(encoding, levels[0].extent, int(levels.size()))); !s) return s;
-    if (status s = check_levels(levels, directions, out.layout); !s) return s;
+    if (status s = check_layout(out, layout_of(encoding, packed_extent(levels, out.layout), int(levels.size()))); !s)
+        return s;
+    if (status s = check_levels(levels, directions, out.layout, options.first_row); !s) return s;
 
-    pack_report sum, one;
-    pack_options each = options;
-    each.report = &one;
     const int count = encoding.slices.count, step = slices_per_layer(encoding.grouping);
-    for (int level = 0; level < int(levels.size()); ++level) {
-        const horizon_map& slopes = levels[std::size_t(level)];
-        const std::size_t row_bytes = out.layout.row_bytes(level);
-        status s = for_slice_bands(slopes, directions, encoding.slices, encoding.scale, each, 1, execute,
-                                   [&](const slice_rows& band) {
-                                       for (int layer = 0; layer < out.layout.layers; ++layer) {
-                                           const int i = layer * step;
-                                           write_row_rgba8(band.row(i, 0), band.row(i + 1, 0), band.row(i + 2, 0),
-                                                           band.row((i + 3) % count, 0), slopes.extent.x,
-                                                           out.slice(layer, level) + std::size_t(band.y) * row_bytes);
-                                       }
-                                   });
-        if (!s) return s;
-        sum.clamped += one.clamped;
-        sum.steepest = (std::max)(sum.steepest, one.steepest);
-    }
-    if (options.report != nullptr) *options.report = sum;
-    return {};
+    return slice_detail::for_levels(
+        levels, options, [&](const horizon_map& slopes, int level, const pack_options& each) {
+            const auto sink = [&](const slice_rows& band) {
+                const std::size_t row = std::size_t(band.y + options.first_row) * out.layout.row_bytes(level);
+                for (int layer = 0; layer < out.layout.layers; ++layer) {
+                    const int i = layer * step;
+                    write_row_rgba8(band.row(i, 0), band.row(i + 1, 0), band.row(i + 2, 0),
+                                    band.row((i + 3) % count, 0), slopes.extent.x, out.slice(layer, level) + row);
+                }
+            };
+            return for_slice_bands(slopes, directions, encoding.slices, encoding.scale, each, 1, execute, sink);
+        });
 }
 
 // The same without mips.

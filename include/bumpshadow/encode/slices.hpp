@@ -55,17 +55,28 @@ namespace bumpshadow {
     return {};
 }
 
-// Checks that a map and its mips, as many as the layout has, are of the layout's extents.
+// Extent of level 0 of the texture that levels (one or more) are packed into: a single one may be a band of its rows.
+[[nodiscard]] inline glm::ivec2 packed_extent(std::span<const horizon_map> levels, const texture_layout& out) {
+    return {levels[0].extent.x, levels.size() == 1 ? out.extent.y : levels[0].extent.y};
+}
+
+// Checks that a map and its mips, as many as the layout has, are of the layout's extents; or that a single one is a
+// band of the rows of level 0, from first_row on.
 [[nodiscard]] inline status check_levels(std::span<const horizon_map> levels, std::span<const glm::dvec2> directions,
-                                         const texture_layout& layout) {
+                                         const texture_layout& layout, int first_row = 0) {
     for (std::size_t i = 0; i < levels.size(); ++i) {
         if (status s = check_horizons(levels[i], directions); !s) return s;
-        const glm::ivec2 extent = layout.level_extent(int(i));
-        if (levels[i].extent.x != extent.x)
-            return {error::mismatch, "extent.x of a level", double(levels[i].extent.x), double(extent.x)};
-        if (levels[i].extent.y != extent.y)
-            return {error::mismatch, "extent.y of a level", double(levels[i].extent.y), double(extent.y)};
+        const glm::ivec2 extent = layout.level_extent(int(i)), given = levels[i].extent;
+        if (given.x != extent.x) return {error::mismatch, "extent.x of a level", double(given.x), double(extent.x)};
+        if (levels.size() > 1 ? given.y != extent.y : given.y > extent.y)
+            return {error::mismatch, "extent.y of a level", double(given.y), double(extent.y)};
     }
+    const int rows = levels[0].extent.y, most = levels.size() > 1 ? 0 : layout.extent.y - rows;
+    if (first_row < 0 || first_row > most)
+        return {error::out_of_range, "options.first_row", double(first_row), double(most)};
+    if (layout.format != texel_format::bc4) return {};
+    if (first_row % 4 != 0) return {error::not_a_multiple, "options.first_row", double(first_row), 4.0};
+    if (first_row < most && rows % 4 != 0) return {error::not_a_multiple, "rows of a band", double(rows), 4.0};
     return {};
 }
 
@@ -89,9 +100,29 @@ namespace bumpshadow {
 // 600 a direction for each thread.
 [[nodiscard]] inline std::size_t slice_scratch_size(glm::ivec2 extent, std::size_t directions, int slices,
                                                     int concurrency = 1) {
-    const auto items = (std::size_t((std::max)(extent.y, 1)) + slice_detail::rows_of_item - 1) / 16;
+    const auto items =
+        std::size_t((std::max)(extent.y, 1) + slice_detail::rows_of_item - 1) / std::size_t(slice_detail::rows_of_item);
     return slice_detail::scratch_bytes(extent.x, directions, slices, 4, slot_pool::slots(concurrency, items));
 }
+
+namespace slice_detail {
+
+// pack(slopes, level, options) for each level, with a report of all.
+template <class Pack>
+[[nodiscard]] status for_levels(std::span<const horizon_map> levels, const pack_options& options, const Pack& pack) {
+    pack_report sum, one;
+    pack_options each = options;
+    each.report = &one;
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+        if (status s = pack(levels[level], int(level), each); !s) return s;
+        sum.clamped += one.clamped;
+        sum.steepest = (std::max)(sum.steepest, one.steepest);
+    }
+    if (options.report != nullptr) *options.report = sum;
+    return {};
+}
+
+}  // namespace slice_detail
 
 // Turns horizons, as slopes in `directions` (any, of any length; evenly spaced ones judge all bearings alike), into
 // slices of stored values, and hands them over in bands: sink(const slice_rows&), for different bands at the same time.

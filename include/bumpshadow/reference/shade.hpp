@@ -30,7 +30,7 @@
 //   s: shadow factor * existing shadow * falloff of the light; h: halfway between light and viewer (Blinn-Phong)
 //
 // Works through rows in chunks that stay in the first cache, one pass for each of the steps. A far light on the flat
-// surface itself, with a tangent volume of 8 bits, takes about 3 ns a pixel on one core of a current machine.
+// surface itself, with a tangent volume of 8 bits, takes about 5 ns a pixel on one core with 512-bit vectors.
 
 namespace bumpshadow {
 

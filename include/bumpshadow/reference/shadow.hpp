@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 
 #include <glm/common.hpp>
@@ -62,14 +63,14 @@ namespace shadow_detail {
     return shader::bumpshadow_bearing_exact(v);
 }
 
+// Finite for any max_slope, 0 included.
 [[nodiscard]] inline float level_of(const horizon_scale& scale, glm::vec3 light) {
-    const float factor = stored_scale(scale);
-    switch (scale.stored) {
-        case quantity::sine: return factor * shader::bumpshadow_sine(light);
-        case quantity::angle: return factor * shader::bumpshadow_angle(light);
-        case quantity::slope: break;
-    }
-    return factor * shader::bumpshadow_slope(light);
+    constexpr float most = std::numeric_limits<float>::max();
+    const float factor = (std::min)(stored_scale(scale), most);
+    const float level = scale.stored == quantity::sine    ? shader::bumpshadow_sine(light)
+                        : scale.stored == quantity::angle ? shader::bumpshadow_angle(light)
+                                                          : shader::bumpshadow_slope(light);
+    return (std::clamp)(factor * level, -most, most);
 }
 
 // As a GPU rounds and clamps the layer of an array.
