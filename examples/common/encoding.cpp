@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include <bumpshadow/encode/fourier_mips.hpp>
 #include <bumpshadow/encode/reduce.hpp>
 #include <bumpshadow/factor_cube.hpp>
 #include <bumpshadow/normal_map.hpp>
@@ -94,6 +95,19 @@ struct job {
         return small;
     }
 
+    // Adds the mips of levels[0], where they are asked for, to be filled, and returns views of them.
+    std::vector<bs::horizon_map> add_levels(std::vector<horizons>& levels) const {
+        std::vector<bs::horizon_map> maps;
+        const glm::ivec2 extent = levels[0].map.extent;
+        for (int level = 1; settings.mips && level < bs::default_mips(extent); ++level) {
+            levels.emplace_back(glm::ivec2(bs::mip_extent(extent.x, level), bs::mip_extent(extent.y, level)),
+                                levels[0].directions.size());
+            levels.back().directions = levels[0].directions;
+            maps.push_back(levels.back().map);
+        }
+        return maps;
+    }
+
     // The map and, where they are asked for, its mips, at `slices` bearings and no other.
     std::vector<horizons> with_mips(horizons h, const bs::slice_set& slices, const bs::horizon_scale& scale) const {
         std::vector<horizons> levels;
@@ -108,15 +122,7 @@ struct job {
         options.report = &result.report;
         require(bs::fit_slices(h.map, h.directions, slices, scale, options, fitted.map, run));
         levels.push_back(std::move(fitted));
-        std::vector<bs::horizon_map> maps;
-        const int count = bs::default_mips(levels[0].map.extent);
-        for (int level = 1; level < count; ++level) {
-            const glm::ivec2 extent{bs::mip_extent(levels[0].map.extent.x, level),
-                                    bs::mip_extent(levels[0].map.extent.y, level)};
-            levels.emplace_back(extent, std::size_t(slices.count));
-            levels.back().directions = levels[0].directions;
-            maps.push_back(levels.back().map);
-        }
+        const std::vector<bs::horizon_map> maps = add_levels(levels);
         require(bs::make_mips(levels[0].map, scale, maps, {}, run));
         return levels;
     }
@@ -221,10 +227,11 @@ struct job {
             e.square_root = settings.square_root;
         }
         e.bits = settings.bits == stored_bits::eight ? 8 : 16;
-        const bs::slice_set all{int(h.directions.size()), 0.0, bs::bearing_function::exact};
-        const std::vector<horizons> levels = with_mips(reduced(std::move(h), e.scale), all, e.scale);
-        std::vector<bs::horizon_map> maps;
-        for (const horizons& level : levels) maps.push_back(level.map);
+        std::vector<horizons> levels;
+        levels.push_back(reduced(std::move(h), e.scale));
+        std::vector<bs::horizon_map> maps = add_levels(levels);
+        if (!maps.empty()) require(bs::make_fourier_mips(levels[0].map, levels[0].directions, e, maps, {}, run));
+        maps.insert(maps.begin(), levels[0].map);
         if (!settings.published) require(bs::tighten_ranges(maps, levels[0].directions, e, {}, run));
         std::vector<bs::texture_layout> layouts;
         for (int i = 0; i < bs::texture_count(e); ++i)

@@ -26,6 +26,8 @@
 #include "encodings/sample.hpp"
 #include "encodings/setups.hpp"
 #include "encodings/speed.hpp"
+#include "encodings/ssbump.hpp"
+#include "encodings/triangle.hpp"
 
 namespace {
 
@@ -41,13 +43,6 @@ struct arguments {
     int repeats = 5;
     std::string json;
     bool check = false;
-};
-
-struct named_map {
-    std::string name;
-    height_source source;
-    height_samples heights;
-    double scale = 1.0;
 };
 
 std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
@@ -147,8 +142,7 @@ void work(const arguments& arguments) {
     std::vector<sample_map> samples;
     std::vector<std::string> names;
     for (const named_map& map : maps) {
-        samples.push_back(
-            take_sample(map.name, map.heights, map.source, map.scale, arguments.texels, std::uint32_t(arguments.seed)));
+        samples.push_back(take_sample(map, arguments.texels, std::uint32_t(arguments.seed)));
         names.push_back(map.name);
     }
     const int texels = int(samples.front().texels());
@@ -157,7 +151,7 @@ void work(const arguments& arguments) {
         "elevations (5 to 60 degrees), exact horizons\n",
         texels, patch_side, patch_side, arguments.seed, light_bearings, light_elevations.size());
 
-    judge judge(std::move(samples));
+    judge judge(samples);
     std::vector<table> tables;
     std::vector<check> checks;
     int skipped = 0;
@@ -179,6 +173,12 @@ void work(const arguments& arguments) {
         std::printf("%s", reasons.c_str());
         std::fflush(stdout);
     }
+    const ssbump_figures ssbump = measure_ssbump(maps, samples);
+    checks.insert(checks.end(), ssbump.checks.begin(), ssbump.checks.end());
+    std::vector<grid> grids = ssbump.grids;
+    const auto stones = std::find(names.begin(), names.end(), "dx_stones");
+    grids.push_back(measure_triangles(samples[stones == names.end() ? 0 : std::size_t(stones - names.begin())]));
+    for (const grid& g : grids) std::printf("\n%s", text_of(g).c_str());
     const named_map& timed = maps.front();
     const speeds speed = measure_speed(timed.heights, timed.source, timed.scale, arguments.repeats);
     std::printf("\n%s, one thread, median of %d\n", timed.name.c_str(), arguments.repeats);
@@ -191,7 +191,7 @@ void work(const arguments& arguments) {
     if (skipped > 0) std::printf("%d setups skipped\n", skipped);
 
     if (json) {
-        json->write(json_of(names, texels, tables, speed, checks));
+        json->write(json_of(names, texels, tables, grids, speed, checks));
         json->commit();
     }
     flush_stdout();
@@ -204,7 +204,8 @@ void work(const arguments& arguments) {
 int main(int argc, char** argv) try {
     CLI::App app(
         "Prints what every encoding costs, in bytes a texel and fetches, and how often it is wrong about what is lit, "
-        "on exact horizons, beside the layout of Lengyel.",
+        "on exact horizons, beside the layout of Lengyel; then how well SSBump maps light, and what interpolating the "
+        "light over triangles costs.",
         "encodings");
     arguments arguments;
     app.add_option("HEIGHTS", arguments.paths,

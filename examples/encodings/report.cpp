@@ -1,5 +1,7 @@
 #include "encodings/report.hpp"
 
+#include <cmath>
+
 #include "common/report_text.hpp"
 
 namespace examples {
@@ -22,8 +24,18 @@ std::string text_of(const table& t, std::span<const std::string> maps) {
     return lined_up(lines);
 }
 
-std::string json_of(std::span<const std::string> maps, int texels, std::span<const table> tables, const speeds& speed,
-                    std::span<const check> checks) {
+std::string text_of(const grid& g) {
+    std::vector<std::vector<std::string>> lines{{g.title}};
+    lines.front().insert(lines.front().end(), g.columns.begin(), g.columns.end());
+    for (const grid::line& l : g.lines) {
+        lines.push_back({l.name});
+        for (const double value : l.values) lines.back().push_back(std::isnan(value) ? "-" : format("%.3g", value));
+    }
+    return lined_up(lines);
+}
+
+std::string json_of(std::span<const std::string> maps, int texels, std::span<const table> tables,
+                    std::span<const grid> grids, const speeds& speed, std::span<const check> checks) {
     std::string json = build_json() + format(",\"texels_a_map\":%d,\"maps\":[", texels);
     for (const std::string& map : maps) {
         json += &map == maps.data() ? "" : ",";
@@ -46,6 +58,21 @@ std::string json_of(std::span<const std::string> maps, int texels, std::span<con
                 json += ",\"skipped\":" + quoted(r.skipped) + "}";
             }
         }
+    json += "],\"grids\":[";
+    for (const grid& g : grids) {
+        json += (&g == grids.data() ? "{\"title\":" : ",{\"title\":") + quoted(g.title) + ",\"columns\":[";
+        for (std::size_t i = 0; i < g.columns.size(); ++i) json.append(i == 0 ? "" : ",").append(quoted(g.columns[i]));
+        json += "],\"lines\":[";
+        for (std::size_t k = 0; k < g.lines.size(); ++k) {
+            json += (k == 0 ? "{\"name\":" : ",{\"name\":") + quoted(g.lines[k].name) + ",\"values\":[";
+            for (std::size_t i = 0; i < g.lines[k].values.size(); ++i) {
+                const double value = g.lines[k].values[i];
+                json.append(i == 0 ? "" : ",").append(std::isnan(value) ? std::string("null") : format("%.5g", value));
+            }
+            json += "]}";
+        }
+        json += "]}";
+    }
     json += "],\"speed\":[";
     for (const figure& f : speed.figures) {
         json += &f == speed.figures.data() ? "" : ",";

@@ -24,6 +24,17 @@ struct table {
     std::vector<row> rows;
 };
 
+// Numbers under headings; not-a-number where a line has none.
+struct grid {
+    struct line {
+        std::string name;
+        std::vector<double> values;
+    };
+    std::string title;
+    std::vector<std::string> columns;
+    std::vector<line> lines;
+};
+
 // A claim, and whether it held.
 struct check {
     std::string what;
@@ -33,7 +44,9 @@ struct check {
 
 [[nodiscard]] std::string text_of(const table& t, std::span<const std::string> maps);
 
+[[nodiscard]] std::string text_of(const grid& g);
+
 [[nodiscard]] std::string json_of(std::span<const std::string> maps, int texels, std::span<const table> tables,
-                                  const speeds& speed, std::span<const check> checks);
+                                  std::span<const grid> grids, const speeds& speed, std::span<const check> checks);
 
 }  // namespace examples

@@ -48,29 +48,31 @@ std::vector<glm::dvec2> sample_map::directions_of(int count) const {
     return some;
 }
 
-sample_map take_sample(const std::string& name, const height_samples& heights, const height_source& source,
-                       double height_scale, int texels, std::uint32_t seed) {
+sample_map take_sample(const named_map& from, int texels, std::uint32_t seed) {
+    const std::string& name = from.name;
     const int patches = std::max(1, (texels + patch_side * patch_side - 1) / (patch_side * patch_side));
     const int grid = int(std::ceil(std::sqrt(double(patches)) - 1e-9));
-    const glm::ivec2 cell = heights.extent / grid;
+    const glm::ivec2 cell = from.heights.extent / grid;
     if (cell.x < patch_side || cell.y < patch_side)
-        throw failure("cannot use " + name + ": its " + std::to_string(heights.extent.x) + " x " +
-                      std::to_string(heights.extent.y) + " texels have no room for " + std::to_string(patches) +
+        throw failure("cannot use " + name + ": its " + std::to_string(from.heights.extent.x) + " x " +
+                      std::to_string(from.heights.extent.y) + " texels have no room for " + std::to_string(patches) +
                       " patches of " + std::to_string(patch_side) + " x " + std::to_string(patch_side));
-    sample_map map{.name = name, .extent = {patches * patch_side, patch_side}, .directions = {}, .slopes = {}};
+    sample_map map{
+        .name = name, .extent = {patches * patch_side, patch_side}, .origins = {}, .directions = {}, .slopes = {}};
     map.directions.resize(light_bearings);
     bs::fill_directions(map.directions);
     map.slopes.resize(map.texels() * light_bearings);
 
     generator random(seed);
     const progress execute(bs::threads(), name.c_str());
-    with_height_map(heights, source, height_scale, [&](const auto& view) {
+    with_height_map(from.heights, from.source, from.scale, [&](const auto& view) {
         for (int i = 0; i < patches; ++i) {
             const glm::ivec2 first = glm::ivec2(i % grid, i / grid) * cell;
             bs::bake_options options;
             options.region.origin = {first.x + random.below(cell.x - patch_side + 1),
                                      first.y + random.below(cell.y - patch_side + 1)};
             options.region.extent = glm::ivec2(patch_side);
+            map.origins.push_back(options.region.origin);
             const std::size_t begin = std::size_t(i) * patch_side;
             const bs::horizon_map out{.values = std::span(map.slopes).subspan(begin),
                                       .extent = options.region.extent,
@@ -87,8 +89,12 @@ sample_map take_sample(const std::string& name, const height_samples& heights, c
 
 sample_map crop(const sample_map& map, int side) {
     const int patches = map.extent.x / map.side;
-    sample_map small{
-        .name = map.name, .extent = {patches * side, side}, .side = side, .directions = map.directions, .slopes = {}};
+    sample_map small{.name = map.name,
+                     .extent = {patches * side, side},
+                     .side = side,
+                     .origins = map.origins,
+                     .directions = map.directions,
+                     .slopes = {}};
     small.slopes.reserve(small.texels() * light_bearings);
     for (int b = 0; b < light_bearings; ++b)
         for (int y = 0; y < side; ++y)

@@ -22,11 +22,20 @@ inline constexpr std::array<double, 6> light_elevations{5.0, 10.0, 20.0, 30.0, 4
 // Side of a patch: whole blocks of 4, 5 and 6 texels.
 inline constexpr int patch_side = 60;
 
+// A height map under the name that the tables have for it.
+struct named_map {
+    std::string name;
+    height_source source;
+    height_samples heights;
+    double scale = 1.0;
+};
+
 // Patches of one height map, side by side, with their exact horizons.
 struct sample_map {
     std::string name;
     glm::ivec2 extent{0};                // patches * side, side
     int side = patch_side;               // texels along a patch
+    std::vector<glm::ivec2> origins;     // first texel of each patch in the height map
     std::vector<glm::dvec2> directions;  // of light_bearings, true angles from +x
     std::vector<float> slopes;           // [bearing][y][x], exact
     float steepest = 0.0f;
@@ -39,8 +48,7 @@ struct sample_map {
 
 // Bakes patches that are spread over a map: one in each cell of a grid, its place in there drawn by a fixed generator.
 // texels: how many at least. Throws failure where the map has no room for them.
-[[nodiscard]] sample_map take_sample(const std::string& name, const height_samples& heights,
-                                     const height_source& source, double height_scale, int texels, std::uint32_t seed);
+[[nodiscard]] sample_map take_sample(const named_map& from, int texels, std::uint32_t seed);
 
 // The same, less what is beyond `side` texels of every patch.
 [[nodiscard]] sample_map crop(const sample_map& map, int side);

@@ -4,6 +4,7 @@
 #include <exception>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <glm/ext/vector_double2.hpp>
@@ -25,8 +26,8 @@ void expect(const bumpshadow::status& s);
 
 // One map an item on all cores, work(map); what is thrown there is thrown here.
 template <class Work>
-std::vector<double> each_map(std::span<const sample_map> maps, const Work& work) {
-    std::vector<double> results(maps.size());
+auto each_map(std::span<const sample_map> maps, const Work& work) {
+    std::vector<std::invoke_result_t<const Work&, const sample_map&>> results(maps.size());
     std::vector<std::string> errors(maps.size());
     bumpshadow::threads()(maps.size(), [&](std::size_t i) {
         try {

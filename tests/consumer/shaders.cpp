@@ -12,7 +12,7 @@ int main() {
                          shader_text::dialect::hlsl, [&](std::string_view part) { text += part; });
     const bool composed = text.find("float bumpshadow_overlapping_horizon(float4 values") != std::string::npos &&
                           text.find("bumpshadow_bearing_cubic") == std::string::npos;
-    const bool files = std::ifstream(SHADER_DIR "/bumpshadow.glsl").good() &&
-                       std::ifstream(SHADER_DIR "/bumpshadow.hlsl").good();
+    const bool files =
+        std::ifstream(SHADER_DIR "/bumpshadow.glsl").good() && std::ifstream(SHADER_DIR "/bumpshadow.hlsl").good();
     return composed && files ? 0 : 1;
 }
