@@ -1,6 +1,7 @@
 #pragma once
 
 // Generated from the .h files beside it by the target `shaders`: change those.
+// clang-format off
 
 #include <array>
 #include <cstdint>
