@@ -36,6 +36,13 @@ has_renderer() {
     return 1
 }
 
+has_vulkan() {
+    for file in /usr/share/vulkan/icd.d/radeon_icd*.json; do
+        if [ -e "$file" ]; then return 0; fi
+    done
+    return 1
+}
+
 tools='' headers='' others=''  # Debian's names of the packages that are missing
 look_for_tool() { has_tool "$1" || tools="$tools $2"; }
 look_for_header() { has_header "$1" || headers="$headers $2"; }
@@ -46,6 +53,9 @@ look_for_shader_tools() {
     has_tool spirv-cross || others="$others spirv-cross"
     has_tool spirv-opt || others="$others spirv-tools"
     has_renderer || others="$others libgl1-mesa-dri"
+    # The compiler that shader_cost asks, and what that is linked with.
+    has_vulkan || others="$others mesa-vulkan-drivers"
+    look_for_header vulkan/vulkan.h libvulkan-dev
     look_for_header EGL/egl.h libegl-dev
     look_for_header GL/glcorearb.h libgl-dev
 }

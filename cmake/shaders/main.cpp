@@ -75,8 +75,8 @@ std::string table(const source& all) {
             for (std::size_t w = 0; w < words; ++w) needs[w] |= closures[std::size_t(other)][w];
         closures.push_back(needs);
         const auto raw = [](const std::string& t) { return "R\"~(" + t + ")~\""; };
-        text += "    {\"" + s.name + "\",\n" + raw(s.comment) + ",\n" + raw(s.code) + ",\n" + raw(hlsl(s.code)) +
-                ",\n     {";
+        text += "    {\"" + s.name + "\",\n" + raw(s.comment) + ",\n" + raw(plain_numbers(s.code)) + ",\n" +
+                raw(hlsl(s.code)) + ",\n     {";
         for (std::size_t w = 0; w < words; ++w) {
             char number[32];
             std::snprintf(number, sizeof number, "%s0x%llxu", w == 0 ? "" : ", ",
@@ -99,7 +99,7 @@ int main(int argc, char** argv) try {
     const source all = read_source(folder);
     const std::string glsl = flattened(all), bake = kernel(folder);
     const std::string files[][2] = {
-        {"bumpshadow.glsl", replace(read_text(templates / "bumpshadow.glsl.in"), "@snippets@\n", glsl)},
+        {"bumpshadow.glsl", replace(read_text(templates / "bumpshadow.glsl.in"), "@snippets@\n", plain_numbers(glsl))},
         {"bumpshadow.hlsl", replace(read_text(templates / "bumpshadow.hlsl.in"), "@snippets@\n", hlsl(glsl))},
         {"snippets_text.hpp", table(all)},
         {"bumpshadow_bake.glsl", replace(read_text(templates / "bumpshadow_bake.glsl.in"), "@kernel@\n", bake)},

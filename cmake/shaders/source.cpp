@@ -119,6 +119,18 @@ source read_source(const std::filesystem::path& folder) {
     return all;
 }
 
+std::string plain_numbers(std::string_view glsl) {
+    std::string text;
+    for_words(
+        glsl,
+        [&](std::string_view word) {
+            const bool number = word[0] >= '0' && word[0] <= '9' && word.back() == 'f' && !word.starts_with("0x");
+            text += number ? word.substr(0, word.size() - 1) : word;
+        },
+        [&](std::string_view other) { text += other; });
+    return text;
+}
+
 std::string hlsl(std::string_view glsl) {
     constexpr std::string_view names[][2] = {
         {"vec2", "float2"},

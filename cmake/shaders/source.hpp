@@ -30,6 +30,9 @@ struct source {
 // Reads the files that shader.hpp includes, in its order. Throws std::runtime_error that names file and line.
 [[nodiscard]] source read_source(const std::filesystem::path& folder);
 
+// Numbers without the f that C++ wants, which not every shading language takes after an exponent.
+[[nodiscard]] std::string plain_numbers(std::string_view glsl);
+
 // GLSL to HLSL: other names for types and functions.
 [[nodiscard]] std::string hlsl(std::string_view glsl);
 

@@ -4,6 +4,10 @@
 
 #include <bumpshadow/shader/snippets.hpp>
 
+#ifdef GLM_VERSION
+#error "the shaders bring GLM along"
+#endif
+
 // The shaders without the library: text put together for one choice, and the files to paste.
 int main() {
     using namespace bumpshadow;

@@ -167,7 +167,7 @@ void compose(const choice& chosen, dialect language, const Write& write) {
     if (chosen.shadow == edge::hard)
         line("); }\n");
     else
-        line(", k, ", chosen.shadow == edge::soft || chosen.shadow == edge::soft_above ? "1.0f" : "0.5f", "); }\n");
+        line(", k, ", chosen.shadow == edge::soft || chosen.shadow == edge::soft_above ? "1.0" : "0.5", "); }\n");
 }
 
 }  // namespace bumpshadow::shader_text

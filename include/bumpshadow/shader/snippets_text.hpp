@@ -20,7 +20,7 @@ inline constexpr snippet snippets[] = {
     {"bumpshadow_square",
 R"~(// Square of a length, never 0. Its inverse root is shared by all that is computed from the same vector.
 )~",
-R"~(float bumpshadow_square(vec2 v) { return v.x * v.x + (v.y * v.y + 1e-30f); }
+R"~(float bumpshadow_square(vec2 v) { return v.x * v.x + (v.y * v.y + 1e-30); }
 )~",
 R"~(float bumpshadow_square(float2 v) { return v.x * v.x + (v.y * v.y + 1e-30f); }
 )~",
@@ -46,8 +46,8 @@ R"~(// Bearing of v, given that of the direction whose component across is the s
 // axis.
 )~",
 R"~(float bumpshadow_unfold(vec2 v, float turns) {
-    float past = turns - 0.25f;
-    return (v.x >= -v.y ? past : -past) + (bumpshadow_steep(v) ? 0.5f : 0.25f);
+    float past = turns - 0.25;
+    return (v.x >= -v.y ? past : -past) + (bumpshadow_steep(v) ? 0.5 : 0.25);
 }
 )~",
 R"~(float bumpshadow_unfold(float2 v, float turns) {
@@ -62,9 +62,9 @@ R"~(// The minimax polynomial of arcsin: half of what atan costs, which reduces 
 R"~(float bumpshadow_bearing_exact(vec2 v) {
     float sine = bumpshadow_across(v) * inversesqrt(bumpshadow_square(v));
     float square = sine * sine;
-    float high = 0.0116049032f + square * (square * 0.0181935507f - 0.00773401597f);
+    float high = 0.0116049032 + square * (square * 0.0181935507 - 0.00773401597);
     return bumpshadow_unfold(
-        v, sine * (0.159153938f + square * (0.026577197f + square * (0.0111934934f + square * high))));
+        v, sine * (0.159153938 + square * (0.026577197 + square * (0.0111934934 + square * high))));
 }
 )~",
 R"~(float bumpshadow_bearing_exact(float2 v) {
@@ -81,7 +81,7 @@ R"~()~",
 R"~(float bumpshadow_bearing_quintic(vec2 v) {
     float sine = bumpshadow_across(v) * inversesqrt(bumpshadow_square(v));
     float square = sine * sine;
-    return bumpshadow_unfold(v, sine * (0.15944586f + square * (0.022631394f + square * 0.024060546f)));
+    return bumpshadow_unfold(v, sine * (0.15944586 + square * (0.022631394 + square * 0.024060546)));
 }
 )~",
 R"~(float bumpshadow_bearing_quintic(float2 v) {
@@ -95,7 +95,7 @@ R"~(float bumpshadow_bearing_quintic(float2 v) {
 R"~()~",
 R"~(float bumpshadow_bearing_cubic(vec2 v) {
     float sine = bumpshadow_across(v) * inversesqrt(bumpshadow_square(v));
-    return bumpshadow_unfold(v, sine * (0.15703793f + 0.039477522f * sine * sine));
+    return bumpshadow_unfold(v, sine * (0.15703793 + 0.039477522 * sine * sine));
 }
 )~",
 R"~(float bumpshadow_bearing_cubic(float2 v) {
@@ -107,7 +107,7 @@ R"~(float bumpshadow_bearing_cubic(float2 v) {
     {"bumpshadow_bearing_octant",
 R"~()~",
 R"~(float bumpshadow_bearing_octant(vec2 v) {
-    return bumpshadow_unfold(v, 0.1767767f * bumpshadow_across(v) * inversesqrt(bumpshadow_square(v)));
+    return bumpshadow_unfold(v, 0.1767767 * bumpshadow_across(v) * inversesqrt(bumpshadow_square(v)));
 }
 )~",
 R"~(float bumpshadow_bearing_octant(float2 v) {
@@ -118,7 +118,7 @@ R"~(float bumpshadow_bearing_octant(float2 v) {
     {"bumpshadow_bearing_diamond",
 R"~()~",
 R"~(float bumpshadow_bearing_diamond(vec2 v) {
-    return bumpshadow_unfold(v, 0.25f * bumpshadow_across(v) / max(abs(v.x) + abs(v.y), 1e-30f));
+    return bumpshadow_unfold(v, 0.25 * bumpshadow_across(v) / max(abs(v.x) + abs(v.y), 1e-30));
 }
 )~",
 R"~(float bumpshadow_bearing_diamond(float2 v) {
@@ -133,7 +133,7 @@ R"~(// What is added to the texture coordinates of the inverse height map, so th
 // zero vector.
 )~",
 R"~(vec2 bumpshadow_emboss_shift(vec3 light, vec2 amount) {
-    float inverse = inversesqrt(max(dot(light, light), 1e-30f));
+    float inverse = inversesqrt(max(dot(light, light), 1e-30));
     return vec2(light.x * inverse * amount.x, light.y * inverse * amount.y);
 }
 )~",
@@ -146,7 +146,7 @@ R"~(float2 bumpshadow_emboss_shift(float3 light, float2 amount) {
     {"bumpshadow_emboss_inverse",
 R"~(// Inverse of a height, in place of a second texture.
 )~",
-R"~(float bumpshadow_emboss_inverse(float height) { return 0.50196078f - height; }
+R"~(float bumpshadow_emboss_inverse(float height) { return 0.50196078 - height; }
 )~",
 R"~(float bumpshadow_emboss_inverse(float height) { return 0.50196078f - height; }
 )~",
@@ -155,7 +155,7 @@ R"~(float bumpshadow_emboss_inverse(float height) { return 0.50196078f - height;
 R"~(// Height and shifted inverse added: 128/255 where the surface is flat, more where it faces the light.
 )~",
 R"~(float bumpshadow_emboss_relief(float height, float shifted_inverse) {
-    return clamp(height + shifted_inverse, 0.0f, 1.0f);
+    return clamp(height + shifted_inverse, 0.0, 1.0);
 }
 )~",
 R"~(float bumpshadow_emboss_relief(float height, float shifted_inverse) {
@@ -167,7 +167,7 @@ R"~(float bumpshadow_emboss_relief(float height, float shifted_inverse) {
 R"~(// The base texture times twice the relief, so that flat leaves it as it is, in light of a color.
 )~",
 R"~(vec3 bumpshadow_emboss(float relief, vec3 base, vec3 color) {
-    return min(2.0f * relief * base, vec3(1.0f, 1.0f, 1.0f)) * color;
+    return min(2.0 * relief * base, vec3(1.0, 1.0, 1.0)) * color;
 }
 )~",
 R"~(float3 bumpshadow_emboss(float relief, float3 base, float3 color) {
@@ -194,8 +194,8 @@ R"~(// From a factor cube as published, sampled with the light's direction: posi
 )~",
 R"~(bumpshadow_eight bumpshadow_factors_published_cube(vec4 texel) {
     bumpshadow_eight factors;
-    factors.layer0 = clamp(texel * 2.0f - 1.0f, 0.0f, 1.0f);
-    factors.layer1 = clamp(texel * -2.0f + 1.0f, 0.0f, 1.0f);
+    factors.layer0 = clamp(texel * 2.0 - 1.0, 0.0, 1.0);
+    factors.layer1 = clamp(texel * -2.0 + 1.0, 0.0, 1.0);
     return factors;
 }
 )~",
@@ -212,8 +212,8 @@ R"~(// From a factor cube in which 128 of 255 stands for 0: at the same cost, an
 )~",
 R"~(bumpshadow_eight bumpshadow_factors_biased_cube(vec4 texel) {
     bumpshadow_eight factors;
-    factors.layer0 = clamp(texel * 2.007874f - 1.007874f, 0.0f, 1.0f);
-    factors.layer1 = clamp(texel * -2.007874f + 1.007874f, 0.0f, 1.0f);
+    factors.layer0 = clamp(texel * 2.007874 - 1.007874, 0.0, 1.0);
+    factors.layer1 = clamp(texel * -2.007874 + 1.007874, 0.0, 1.0);
     return factors;
 }
 )~",
@@ -230,7 +230,7 @@ R"~(// How far a direction has turned from the nearest axis to the diagonal, 0 t
 // the smaller component of the unit vector, 0 to 0.7071. Within 0.35 degrees of the true angle, exact at both ends;
 // goes on growing beyond.
 )~",
-R"~(float bumpshadow_turn_to_diagonal(float sine) { return sine * (1.1769721f + 0.3355101f * sine); }
+R"~(float bumpshadow_turn_to_diagonal(float sine) { return sine * (1.1769721 + 0.3355101 * sine); }
 )~",
 R"~(float bumpshadow_turn_to_diagonal(float sine) { return sine * (1.1769721f + 0.3355101f * sine); }
 )~",
@@ -241,16 +241,16 @@ R"~(// Without a cube. light: to the light, in the surface, of any length whose 
 )~",
 R"~(bumpshadow_eight bumpshadow_factors(vec2 light) {
     float inverse = inversesqrt(bumpshadow_square(light));
-    float x = (light.x + 1e-15f) * inverse;
+    float x = (light.x + 1e-15) * inverse;
     float y = light.y * inverse;
     // The turn away from the other axis, with the component's sign.
-    x = x * (1.1769721f + 0.3355101f * abs(x));
-    y = y * (1.1769721f + 0.3355101f * abs(y));
-    float along_x = 1.0f - abs(y);
-    float along_y = 1.0f - abs(x);
+    x = x * (1.1769721 + 0.3355101 * abs(x));
+    y = y * (1.1769721 + 0.3355101 * abs(y));
+    float along_x = 1.0 - abs(y);
+    float along_y = 1.0 - abs(x);
     bumpshadow_eight factors;
-    factors.layer0 = clamp(vec4(min(along_x, x), min(x, y), min(along_y, y), min(-x, y)), 0.0f, 1.0f);
-    factors.layer1 = clamp(vec4(min(along_x, -x), min(-x, -y), min(along_y, -y), min(x, -y)), 0.0f, 1.0f);
+    factors.layer0 = clamp(vec4(min(along_x, x), min(x, y), min(along_y, y), min(-x, y)), 0.0, 1.0);
+    factors.layer1 = clamp(vec4(min(along_x, -x), min(-x, -y), min(along_y, -y), min(x, -y)), 0.0, 1.0);
     return factors;
 }
 )~",
@@ -275,10 +275,10 @@ R"~(// The same from a bearing, in turns, any number.
 )~",
 R"~(bumpshadow_eight bumpshadow_factors_of_bearing(float bearing) {
     // Turns to each direction of layer 0; the ones of layer 1 lie opposite.
-    vec4 away = abs(fract(vec4(bearing, bearing, bearing, bearing) + vec4(0.5f, 0.375f, 0.25f, 0.125f)) - 0.5f);
+    vec4 away = abs(fract(vec4(bearing, bearing, bearing, bearing) + vec4(0.5, 0.375, 0.25, 0.125)) - 0.5);
     bumpshadow_eight factors;
-    factors.layer0 = clamp(1.0f - 8.0f * away, 0.0f, 1.0f);
-    factors.layer1 = clamp(8.0f * away - 3.0f, 0.0f, 1.0f);
+    factors.layer0 = clamp(1.0 - 8.0 * away, 0.0, 1.0);
+    factors.layer1 = clamp(8.0 * away - 3.0, 0.0, 1.0);
     return factors;
 }
 )~",
@@ -445,9 +445,9 @@ R"~(float bumpshadow_angle(float3 light) { return atan(bumpshadow_slope(light));
 R"~(// stored: the three channels, in [0, 1]; (1, 1, 1) / 2, which has no direction, gives straight up.
 )~",
 R"~(vec3 bumpshadow_normal(vec3 stored, float y) {
-    vec3 normal = vec3(2.0f * stored.x - 1.0f, y * (2.0f * stored.y - 1.0f), 2.0f * stored.z - 1.0f);
+    vec3 normal = vec3(2.0 * stored.x - 1.0, y * (2.0 * stored.y - 1.0), 2.0 * stored.z - 1.0);
     float square = dot(normal, normal);
-    return square > 1e-4f ? normal * inversesqrt(square) : vec3(0.0f, 0.0f, 1.0f);
+    return square > 1e-4 ? normal * inversesqrt(square) : vec3(0.0, 0.0, 1.0);
 }
 )~",
 R"~(float3 bumpshadow_normal(float3 stored, float y) {
@@ -462,7 +462,7 @@ R"~(// Partial-derivative form: stored are dz/dx and dz/dy of the surface, over 
 // channels, and derivatives of several maps may be added. Steeper slopes are not stored.
 )~",
 R"~(vec3 bumpshadow_normal_of_derivatives(vec2 stored, float max_slope, float y) {
-    vec3 normal = vec3(max_slope * (1.0f - 2.0f * stored.x), y * max_slope * (1.0f - 2.0f * stored.y), 1.0f);
+    vec3 normal = vec3(max_slope * (1.0 - 2.0 * stored.x), y * max_slope * (1.0 - 2.0 * stored.y), 1.0);
     return normal * inversesqrt(dot(normal, normal));
 }
 )~",
@@ -476,7 +476,7 @@ R"~(float3 bumpshadow_normal_of_derivatives(float2 stored, float max_slope, floa
 R"~(// No soft edge: the limit of large k.
 )~",
 R"~(float bumpshadow_shadow_hard(float light, float horizon) {
-    return light >= max(horizon, 0.0f) ? 1.0f : 0.0f;
+    return light >= max(horizon, 0.0) ? 1.0 : 0.0;
 }
 )~",
 R"~(float bumpshadow_shadow_hard(float light, float horizon) {
@@ -488,7 +488,7 @@ R"~(float bumpshadow_shadow_hard(float light, float horizon) {
 R"~(// clamp(k (light - horizon) + c, 0, 1), for a light that is never below the surface or does not shine there anyway.
 )~",
 R"~(float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
-    return clamp(min(k, 1e30f) * (light - horizon) + c, 0.0f, 1.0f);
+    return clamp(min(k, 1e30) * (light - horizon) + c, 0.0, 1.0);
 }
 )~",
 R"~(float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
@@ -501,7 +501,7 @@ R"~(// The same, and 0 for a light below the surface. c = 1: the edge lies insid
 // = 0.5: it is centered. k from 0 to infinity.
 )~",
 R"~(float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
-    return light >= 0.0f ? bumpshadow_shadow_soft_above(light, horizon, k, c) : 0.0f;
+    return light >= 0.0 ? bumpshadow_shadow_soft_above(light, horizon, k, c) : 0.0;
 }
 )~",
 R"~(float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
@@ -513,7 +513,7 @@ R"~(float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
 R"~(// Shadows that end with distance: the factor up to `start`, 1 from `end` on.
 )~",
 R"~(float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
-    return mix(factor, 1.0f, clamp((distance - start) / max(end - start, 1e-30f), 0.0f, 1.0f));
+    return mix(factor, 1.0, clamp((distance - start) / max(end - start, 1e-30), 0.0, 1.0));
 }
 )~",
 R"~(float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
@@ -540,12 +540,12 @@ R"~(float bumpshadow_sine_layers(vec4 layer0, vec4 layer1, vec2 light) {
     float x = abs(light.x);
     float y = abs(light.y);
     float part = bumpshadow_turn_to_diagonal(min(x, y) * inversesqrt(bumpshadow_square(light)));
-    float along_x = light.x >= 0.0f ? layer0.x : layer1.x;
-    float along_y = light.y >= 0.0f ? layer0.z : layer1.z;
-    float diagonal_up = light.x >= 0.0f ? layer0.y : layer0.w;
-    float diagonal_down = light.x >= 0.0f ? layer1.w : layer1.y;
+    float along_x = light.x >= 0.0 ? layer0.x : layer1.x;
+    float along_y = light.y >= 0.0 ? layer0.z : layer1.z;
+    float diagonal_up = light.x >= 0.0 ? layer0.y : layer0.w;
+    float diagonal_down = light.x >= 0.0 ? layer1.w : layer1.y;
     float axis = y > x ? along_y : along_x;
-    float diagonal = light.y >= 0.0f ? diagonal_up : diagonal_down;
+    float diagonal = light.y >= 0.0 ? diagonal_up : diagonal_down;
     return axis + part * (diagonal - axis);
 }
 )~",
@@ -566,7 +566,7 @@ R"~(float bumpshadow_sine_layers(float4 layer0, float4 layer1, float2 light) {
     {"bumpshadow_sine_first_layer",
 R"~(// An array of both layers: the one to sample whole, and of the other one, 1 - this, only the first channel.
 )~",
-R"~(float bumpshadow_sine_first_layer(vec2 light) { return light.y >= 0.0f ? 0.0f : 1.0f; }
+R"~(float bumpshadow_sine_first_layer(vec2 light) { return light.y >= 0.0 ? 0.0 : 1.0; }
 )~",
 R"~(float bumpshadow_sine_first_layer(float2 light) { return light.y >= 0.0f ? 0.0f : 1.0f; }
 )~",
@@ -578,7 +578,7 @@ R"~(float bumpshadow_sine_half(vec4 first, float other, vec2 light) {
     float x = abs(light.x);
     float y = abs(light.y);
     float part = bumpshadow_turn_to_diagonal(min(x, y) * inversesqrt(bumpshadow_square(light)));
-    bool ahead = (light.x >= 0.0f) == (light.y >= 0.0f);
+    bool ahead = (light.x >= 0.0) == (light.y >= 0.0);
     float level = ahead ? first.x : other;
     float axis = y > x ? first.z : level;
     float diagonal = ahead ? first.y : first.w;
@@ -615,9 +615,9 @@ R"~(// Four slices a layer, two fetches; layers = N / 4. x, y: layers; z: positi
 )~",
 R"~(vec3 bumpshadow_grouped_layers(float position, float layers) {
     // A little less than a quarter, so that N finds the last layer; a place of 4 is as good as 0 in the next one.
-    float layer = floor(position * 0.24999996f);
-    float next = layer + 1.0f;
-    return vec3(layer, next < layers ? next : 0.0f, position - 4.0f * layer);
+    float layer = floor(position * 0.24999996);
+    float next = layer + 1.0;
+    return vec3(layer, next < layers ? next : 0.0, position - 4.0 * layer);
 }
 )~",
 R"~(float3 bumpshadow_grouped_layers(float position, float layers) {
@@ -632,8 +632,8 @@ R"~(float3 bumpshadow_grouped_layers(float position, float layers) {
 R"~(// Parts of the four channels: those of hat functions around 0, 1, 2, 3.
 )~",
 R"~(vec4 bumpshadow_slice_parts(float place) {
-    return max(vec4(1.0f, 1.0f, 1.0f, 1.0f) - abs(vec4(place, place - 1.0f, place - 2.0f, place - 3.0f)),
-               vec4(0.0f, 0.0f, 0.0f, 0.0f));
+    return max(vec4(1.0, 1.0, 1.0, 1.0) - abs(vec4(place, place - 1.0, place - 2.0, place - 3.0)),
+               vec4(0.0, 0.0, 0.0, 0.0));
 }
 )~",
 R"~(float4 bumpshadow_slice_parts(float place) {
@@ -647,10 +647,10 @@ R"~(// Horizon from layer x, and the first channel of layer y.
 )~",
 R"~(float bumpshadow_grouped_horizon(vec4 values, float next_value, float place) {
     // Of the two neighbors one is even, the other odd.
-    float past = place - 2.0f;
-    float even = abs(past) < 1.0f ? values.z : past < 0.0f ? values.x : next_value;
-    float odd = past < 0.0f ? values.y : values.w;
-    return odd + abs(abs(past) - 1.0f) * (even - odd);
+    float past = place - 2.0;
+    float even = abs(past) < 1.0 ? values.z : past < 0.0 ? values.x : next_value;
+    float odd = past < 0.0 ? values.y : values.w;
+    return odd + abs(abs(past) - 1.0) * (even - odd);
 }
 )~",
 R"~(float bumpshadow_grouped_horizon(float4 values, float next_value, float place) {
@@ -667,8 +667,8 @@ R"~(// Layers that overlap by one slice, one fetch. x: layer; y: position from i
 )~",
 R"~(vec2 bumpshadow_overlapping_layer(float position) {
     // A little less than a third, so that N finds the last layer.
-    float layer = floor(position * 0.33333328f);
-    return vec2(layer, position - 3.0f * layer);
+    float layer = floor(position * 0.33333328);
+    return vec2(layer, position - 3.0 * layer);
 }
 )~",
 R"~(float2 bumpshadow_overlapping_layer(float position) {
@@ -682,10 +682,10 @@ R"~(float2 bumpshadow_overlapping_layer(float position) {
 R"~(// Horizon from the layer.
 )~",
 R"~(float bumpshadow_overlapping_horizon(vec4 values, float place) {
-    float past = place - 2.0f;
-    float even = past < -1.0f ? values.x : values.z;
-    float odd = past < 0.0f ? values.y : values.w;
-    return odd + abs(abs(past) - 1.0f) * (even - odd);
+    float past = place - 2.0;
+    float even = past < -1.0 ? values.x : values.z;
+    float odd = past < 0.0 ? values.y : values.w;
+    return odd + abs(abs(past) - 1.0) * (even - odd);
 }
 )~",
 R"~(float bumpshadow_overlapping_horizon(float4 values, float place) {
@@ -709,8 +709,8 @@ R"~(float3 bumpshadow_ssbump_other_hand(float3 masks) { return float3(masks.x, m
 R"~(// Sum of the basis vectors, each times its mask; not unit length.
 )~",
 R"~(vec3 bumpshadow_ssbump_sum(vec3 masks) {
-    return vec3(0.81649658f * masks.x - 0.40824829f * (masks.y + masks.z), 0.70710678f * (masks.y - masks.z),
-                0.57735027f * (masks.x + masks.y + masks.z));
+    return vec3(0.81649658 * masks.x - 0.40824829 * (masks.y + masks.z), 0.70710678 * (masks.y - masks.z),
+                0.57735027 * (masks.x + masks.y + masks.z));
 }
 )~",
 R"~(float3 bumpshadow_ssbump_sum(float3 masks) {
@@ -724,10 +724,10 @@ R"~(// Three dots with the basis, the inverse of the sum: the masks of a unit no
 // are not up to a tilt of 35.26 degrees, asin(1/sqrt(3)); beyond, some bearings make one negative.
 )~",
 R"~(vec3 bumpshadow_ssbump_project(vec3 v) {
-    float up = 0.57735027f * v.z;
-    float side = 0.70710678f * v.y;
-    float back = up - 0.40824829f * v.x;
-    return vec3(0.81649658f * v.x + up, back + side, back - side);
+    float up = 0.57735027 * v.z;
+    float side = 0.70710678 * v.y;
+    float back = up - 0.40824829 * v.x;
+    return vec3(0.81649658 * v.x + up, back + side, back - side);
 }
 )~",
 R"~(float3 bumpshadow_ssbump_project(float3 v) {
@@ -744,7 +744,7 @@ R"~(// Unit normal: of the surface for masks without occlusion, else bent toward
 R"~(vec3 bumpshadow_ssbump_normal(vec3 masks) {
     vec3 sum = bumpshadow_ssbump_sum(masks);
     float square = dot(sum, sum);
-    return square > 1e-8f ? sum * inversesqrt(square) : vec3(0.0f, 0.0f, 1.0f);
+    return square > 1e-8 ? sum * inversesqrt(square) : vec3(0.0, 0.0, 1.0);
 }
 )~",
 R"~(float3 bumpshadow_ssbump_normal(float3 masks) {
@@ -759,7 +759,7 @@ R"~(// The basis concatenated with the way from tangent space to the world, whos
 // vertex or a pixel. Any of the sums above then lands in the world.
 )~",
 R"~(vec3 bumpshadow_ssbump_world_red(vec3 tangent, vec3 normal) {
-    return 0.81649658f * tangent + 0.57735027f * normal;
+    return 0.81649658 * tangent + 0.57735027 * normal;
 }
 )~",
 R"~(float3 bumpshadow_ssbump_world_red(float3 tangent, float3 normal) {
@@ -770,7 +770,7 @@ R"~(float3 bumpshadow_ssbump_world_red(float3 tangent, float3 normal) {
     {"bumpshadow_ssbump_world_green",
 R"~()~",
 R"~(vec3 bumpshadow_ssbump_world_green(vec3 tangent, vec3 bitangent, vec3 normal) {
-    return 0.70710678f * bitangent - 0.40824829f * tangent + 0.57735027f * normal;
+    return 0.70710678 * bitangent - 0.40824829 * tangent + 0.57735027 * normal;
 }
 )~",
 R"~(float3 bumpshadow_ssbump_world_green(float3 tangent, float3 bitangent, float3 normal) {
@@ -781,7 +781,7 @@ R"~(float3 bumpshadow_ssbump_world_green(float3 tangent, float3 bitangent, float
     {"bumpshadow_ssbump_world_blue",
 R"~()~",
 R"~(vec3 bumpshadow_ssbump_world_blue(vec3 tangent, vec3 bitangent, vec3 normal) {
-    return 0.57735027f * normal - 0.40824829f * tangent - 0.70710678f * bitangent;
+    return 0.57735027 * normal - 0.40824829 * tangent - 0.70710678 * bitangent;
 }
 )~",
 R"~(float3 bumpshadow_ssbump_world_blue(float3 tangent, float3 bitangent, float3 normal) {
@@ -795,7 +795,7 @@ R"~(// Straight to a unit normal in the world; red, green, blue: from the three 
 )~",
 R"~(vec3 bumpshadow_ssbump_world_normal(vec3 masks, vec3 red, vec3 green, vec3 blue) {
     vec3 sum = masks.x * red + masks.y * green + masks.z * blue;
-    return sum * inversesqrt(max(dot(sum, sum), 1e-20f));
+    return sum * inversesqrt(max(dot(sum, sum), 1e-20));
 }
 )~",
 R"~(float3 bumpshadow_ssbump_world_normal(float3 masks, float3 red, float3 green, float3 blue) {
@@ -807,7 +807,7 @@ R"~(float3 bumpshadow_ssbump_world_normal(float3 masks, float3 red, float3 green
     {"bumpshadow_reflection",
 R"~(// Where a ray from the eye goes on to: `eye` points to the eye, `normal` is unit length, both in the same space.
 )~",
-R"~(vec3 bumpshadow_reflection(vec3 eye, vec3 normal) { return 2.0f * dot(normal, eye) * normal - eye; }
+R"~(vec3 bumpshadow_reflection(vec3 eye, vec3 normal) { return 2.0 * dot(normal, eye) * normal - eye; }
 )~",
 R"~(float3 bumpshadow_reflection(float3 eye, float3 normal) { return 2.0f * dot(normal, eye) * normal - eye; }
 )~",
@@ -823,7 +823,7 @@ R"~(float3 bumpshadow_ssbump_detail(float3 masks, float detail) { return masks *
     {"bumpshadow_ssbump_detail_masks",
 R"~(// A second SSBump map as detail, packed so that flat is 0.5. The product may exceed 1: a target of 8 bits clamps it.
 )~",
-R"~(vec3 bumpshadow_ssbump_detail_masks(vec3 masks, vec3 detail) { return 2.0f * masks * detail; }
+R"~(vec3 bumpshadow_ssbump_detail_masks(vec3 masks, vec3 detail) { return 2.0 * masks * detail; }
 )~",
 R"~(float3 bumpshadow_ssbump_detail_masks(float3 masks, float3 detail) { return 2.0f * masks * detail; }
 )~",
@@ -850,10 +850,10 @@ R"~(// The same lightmaps with an ordinary normal map (McTaggart 2004, Half-Life
 // squares of the clamped dots, over their sum.
 )~",
 R"~(vec3 bumpshadow_normal_lightmaps(vec3 normal, vec3 red, vec3 green, vec3 blue) {
-    vec3 dots = max(bumpshadow_ssbump_project(normal), 0.0f);
+    vec3 dots = max(bumpshadow_ssbump_project(normal), 0.0);
     vec3 squares = dots * dots;
-    float sum = max(squares.x + squares.y + squares.z, 1e-20f);
-    return (squares.x * red + squares.y * green + squares.z * blue) * (1.0f / sum);
+    float sum = max(squares.x + squares.y + squares.z, 1e-20);
+    return (squares.x * red + squares.y * green + squares.z * blue) * (1.0 / sum);
 }
 )~",
 R"~(float3 bumpshadow_normal_lightmaps(float3 normal, float3 red, float3 green, float3 blue) {
@@ -869,7 +869,7 @@ R"~(// A dynamic light projected on the basis: three dots, clamped. light: towar
 // is strong. Once an object or vertex for lights that are far. As with a normal map, a light a little below the surface
 // still shines on slopes that face it.
 )~",
-R"~(vec3 bumpshadow_ssbump_weights(vec3 light) { return max(bumpshadow_ssbump_project(light), 0.0f); }
+R"~(vec3 bumpshadow_ssbump_weights(vec3 light) { return max(bumpshadow_ssbump_project(light), 0.0); }
 )~",
 R"~(float3 bumpshadow_ssbump_weights(float3 light) { return max(bumpshadow_ssbump_project(light), 0.0f); }
 )~",
@@ -897,9 +897,9 @@ R"~(// An array of layers, for two fetches: x, y: the two layers, z: part of the
 )~",
 R"~(vec3 bumpshadow_tangent_layers(float bearing, float phase, float slices) {
     float position = fract(bearing - phase) * slices;
-    float layer = min(floor(position), slices - 1.0f);
-    float next = layer + 1.0f;
-    return vec3(layer, next < slices ? next : 0.0f, position - layer);
+    float layer = min(floor(position), slices - 1.0);
+    float next = layer + 1.0;
+    return vec3(layer, next < slices ? next : 0.0, position - layer);
 }
 )~",
 R"~(float3 bumpshadow_tangent_layers(float bearing, float phase, float slices) {
@@ -985,7 +985,7 @@ R"~(float2 bumpshadow_vertex_bearing_exact(float3 light, float most) {
 R"~(// Direction (xy, of length 1; 0 straight up, so that such a vertex leaves the direction to the others) and slope (z).
 )~",
 R"~(vec3 bumpshadow_vertex_direction(vec3 light, float most) {
-    float inverse = inversesqrt(max(light.x * light.x + light.y * light.y, 1e-30f));
+    float inverse = inversesqrt(max(light.x * light.x + light.y * light.y, 1e-30));
     return vec3(light.x * inverse, light.y * inverse, bumpshadow_vertex_slope(light, most));
 }
 )~",
@@ -1000,8 +1000,8 @@ R"~(// Bearings of a triangle's vertices moved by whole turns to within half a t
 // did: 0.1, 0.2, 0.9 becomes 0.1, 0.2, -0.1. For geometry and mesh shaders, and for lights that are fixed in a mesh.
 )~",
 R"~(vec3 bumpshadow_unwrap_bearings(vec3 bearings) {
-    return vec3(bearings.x, bearings.y - floor(bearings.y - bearings.x + 0.5f),
-                bearings.z - floor(bearings.z - bearings.x + 0.5f));
+    return vec3(bearings.x, bearings.y - floor(bearings.y - bearings.x + 0.5),
+                bearings.z - floor(bearings.z - bearings.x + 0.5));
 }
 )~",
 R"~(float3 bumpshadow_unwrap_bearings(float3 bearings) {
@@ -1014,7 +1014,7 @@ R"~(float3 bumpshadow_unwrap_bearings(float3 bearings) {
 R"~(// True where the light stands above the triangle: its unwrapped bearings go round, and no bearings that are
 // interpolated linearly can be right.
 )~",
-R"~(bool bumpshadow_bearings_go_round(vec3 unwrapped) { return abs(unwrapped.y - unwrapped.z) > 0.5f; }
+R"~(bool bumpshadow_bearings_go_round(vec3 unwrapped) { return abs(unwrapped.y - unwrapped.z) > 0.5; }
 )~",
 R"~(bool bumpshadow_bearings_go_round(float3 unwrapped) { return abs(unwrapped.y - unwrapped.z) > 0.5f; }
 )~",
@@ -1025,7 +1025,7 @@ R"~(// Without neighbors: interpolate a bearing twice, once with its seam at 0 a
 // Cylindrical and Toroidal Parameterizations Without Vertex Seams, 2012.
 )~",
 R"~(vec2 bumpshadow_bearing_pair(float bearing) {
-    return vec2(fract(bearing), fract(bearing + 0.5f) - 0.5f);
+    return vec2(fract(bearing), fract(bearing + 0.5) - 0.5);
 }
 )~",
 R"~(float2 bumpshadow_bearing_pair(float bearing) {
