@@ -76,7 +76,7 @@ std::string table(const source& all) {
         closures.push_back(needs);
         const auto raw = [](const std::string& t) { return "R\"~(" + t + ")~\""; };
         text += "    {\"" + s.name + "\",\n" + raw(s.comment) + ",\n" + raw(plain_numbers(s.code)) + ",\n" +
-                raw(hlsl(s.code)) + ",\n     {";
+                raw(hlsl(plain_numbers(s.code))) + ",\n     {";
         for (std::size_t w = 0; w < words; ++w) {
             char number[32];
             std::snprintf(number, sizeof number, "%s0x%llxu", w == 0 ? "" : ", ",
@@ -100,7 +100,8 @@ int main(int argc, char** argv) try {
     const std::string glsl = flattened(all), bake = kernel(folder);
     const std::string files[][2] = {
         {"bumpshadow.glsl", replace(read_text(templates / "bumpshadow.glsl.in"), "@snippets@\n", plain_numbers(glsl))},
-        {"bumpshadow.hlsl", replace(read_text(templates / "bumpshadow.hlsl.in"), "@snippets@\n", hlsl(glsl))},
+        {"bumpshadow.hlsl",
+         replace(read_text(templates / "bumpshadow.hlsl.in"), "@snippets@\n", hlsl(plain_numbers(glsl)))},
         {"snippets_text.hpp", table(all)},
         {"bumpshadow_bake.glsl", replace(read_text(templates / "bumpshadow_bake.glsl.in"), "@kernel@\n", bake)},
         {"bumpshadow_bake.hlsl", replace(read_text(templates / "bumpshadow_bake.hlsl.in"), "@kernel@\n", hlsl(bake))},

@@ -174,14 +174,14 @@ TEST_CASE("short names call what was chosen") {
     const auto says = [&](const char* text) { return composed(chosen, dialect::glsl).find(text) != std::string::npos; };
     CHECK(says("float bumpshadow_bearing(vec2 v) { return bumpshadow_bearing_octant(v); }"));
     CHECK(says("float bumpshadow_level(vec3 light) { return bumpshadow_angle(light); }"));
-    CHECK(says("{ return bumpshadow_shadow_soft(light, horizon, k, 1.0f); }"));
+    CHECK(says("{ return bumpshadow_shadow_soft(light, horizon, k, 1.0); }"));
     chosen.shadow = edge::soft_above;
-    CHECK(says("{ return bumpshadow_shadow_soft_above(light, horizon, k, 1.0f); }"));
+    CHECK(says("{ return bumpshadow_shadow_soft_above(light, horizon, k, 1.0); }"));
     CHECK_FALSE(says("bumpshadow_shadow_soft("));
     chosen.shadow = edge::centered;
-    CHECK(says("{ return bumpshadow_shadow_soft(light, horizon, k, 0.5f); }"));
+    CHECK(says("{ return bumpshadow_shadow_soft(light, horizon, k, 0.5); }"));
     chosen.shadow = edge::centered_above;
-    CHECK(says("{ return bumpshadow_shadow_soft_above(light, horizon, k, 0.5f); }"));
+    CHECK(says("{ return bumpshadow_shadow_soft_above(light, horizon, k, 0.5); }"));
     chosen.shadow = edge::hard;
     CHECK(says("{ return bumpshadow_shadow_hard(light, horizon); }"));
     CHECK_FALSE(says("bumpshadow_shadow_soft_above("));

@@ -85,7 +85,7 @@
 // degrees. All but diamond share the reciprocal square root with the slope of the light, which makes cubic cheaper.
 
 // Square of a length, never 0. Its inverse root is shared by all that is computed from the same vector.
-float bumpshadow_square(float2 v) { return v.x * v.x + (v.y * v.y + 1e-30f); }
+float bumpshadow_square(float2 v) { return v.x * v.x + (v.y * v.y + 1e-30); }
 
 // Nearer to the y axis than to the x axis. Two comparisons, since those of the quadrant are needed anyway.
 bool bumpshadow_steep(float2 v) { return (v.x >= v.y) != (v.x >= -v.y); }
@@ -96,36 +96,36 @@ float bumpshadow_across(float2 v) { return bumpshadow_steep(v) ? -v.x : v.y; }
 // Bearing of v, given that of the direction whose component across is the same and whose other one is |x| on the x
 // axis.
 float bumpshadow_unfold(float2 v, float turns) {
-    float past = turns - 0.25f;
-    return (v.x >= -v.y ? past : -past) + (bumpshadow_steep(v) ? 0.5f : 0.25f);
+    float past = turns - 0.25;
+    return (v.x >= -v.y ? past : -past) + (bumpshadow_steep(v) ? 0.5 : 0.25);
 }
 
 // The minimax polynomial of arcsin: half of what atan costs, which reduces a range that is reduced already.
 float bumpshadow_bearing_exact(float2 v) {
     float sine = bumpshadow_across(v) * rsqrt(bumpshadow_square(v));
     float square = sine * sine;
-    float high = 0.0116049032f + square * (square * 0.0181935507f - 0.00773401597f);
+    float high = 0.0116049032 + square * (square * 0.0181935507 - 0.00773401597);
     return bumpshadow_unfold(
-        v, sine * (0.159153938f + square * (0.026577197f + square * (0.0111934934f + square * high))));
+        v, sine * (0.159153938 + square * (0.026577197 + square * (0.0111934934 + square * high))));
 }
 
 float bumpshadow_bearing_quintic(float2 v) {
     float sine = bumpshadow_across(v) * rsqrt(bumpshadow_square(v));
     float square = sine * sine;
-    return bumpshadow_unfold(v, sine * (0.15944586f + square * (0.022631394f + square * 0.024060546f)));
+    return bumpshadow_unfold(v, sine * (0.15944586 + square * (0.022631394 + square * 0.024060546)));
 }
 
 float bumpshadow_bearing_cubic(float2 v) {
     float sine = bumpshadow_across(v) * rsqrt(bumpshadow_square(v));
-    return bumpshadow_unfold(v, sine * (0.15703793f + 0.039477522f * sine * sine));
+    return bumpshadow_unfold(v, sine * (0.15703793 + 0.039477522 * sine * sine));
 }
 
 float bumpshadow_bearing_octant(float2 v) {
-    return bumpshadow_unfold(v, 0.1767767f * bumpshadow_across(v) * rsqrt(bumpshadow_square(v)));
+    return bumpshadow_unfold(v, 0.1767767 * bumpshadow_across(v) * rsqrt(bumpshadow_square(v)));
 }
 
 float bumpshadow_bearing_diamond(float2 v) {
-    return bumpshadow_unfold(v, 0.25f * bumpshadow_across(v) / max(abs(v.x) + abs(v.y), 1e-30f));
+    return bumpshadow_unfold(v, 0.25 * bumpshadow_across(v) / max(abs(v.x) + abs(v.y), 1e-30));
 }
 
 // ---- emboss ----
@@ -139,21 +139,21 @@ float bumpshadow_bearing_diamond(float2 v) {
 // interpolated. amount: the shift of a light at the horizon, in texture coordinates (texels over extent). 0 for the
 // zero vector.
 float2 bumpshadow_emboss_shift(float3 light, float2 amount) {
-    float inverse = rsqrt(max(dot(light, light), 1e-30f));
+    float inverse = rsqrt(max(dot(light, light), 1e-30));
     return float2(light.x * inverse * amount.x, light.y * inverse * amount.y);
 }
 
 // Inverse of a height, in place of a second texture.
-float bumpshadow_emboss_inverse(float height) { return 0.50196078f - height; }
+float bumpshadow_emboss_inverse(float height) { return 0.50196078 - height; }
 
 // Height and shifted inverse added: 128/255 where the surface is flat, more where it faces the light.
 float bumpshadow_emboss_relief(float height, float shifted_inverse) {
-    return clamp(height + shifted_inverse, 0.0f, 1.0f);
+    return clamp(height + shifted_inverse, 0.0, 1.0);
 }
 
 // The base texture times twice the relief, so that flat leaves it as it is, in light of a color.
 float3 bumpshadow_emboss(float relief, float3 base, float3 color) {
-    return min(2.0f * relief * base, float3(1.0f, 1.0f, 1.0f)) * color;
+    return min(2.0 * relief * base, float3(1.0, 1.0, 1.0)) * color;
 }
 
 // ---- factors ----
@@ -171,48 +171,48 @@ struct bumpshadow_eight {
 // (equation 5.3). A factor of 0 is stored as 128 and adds 1/255, so that all but the two wanted horizons leak a little.
 bumpshadow_eight bumpshadow_factors_published_cube(float4 texel) {
     bumpshadow_eight factors;
-    factors.layer0 = clamp(texel * 2.0f - 1.0f, 0.0f, 1.0f);
-    factors.layer1 = clamp(texel * -2.0f + 1.0f, 0.0f, 1.0f);
+    factors.layer0 = clamp(texel * 2.0 - 1.0, 0.0, 1.0);
+    factors.layer1 = clamp(texel * -2.0 + 1.0, 0.0, 1.0);
     return factors;
 }
 
 // From a factor cube in which 128 of 255 stands for 0: at the same cost, and nothing leaks.
 bumpshadow_eight bumpshadow_factors_biased_cube(float4 texel) {
     bumpshadow_eight factors;
-    factors.layer0 = clamp(texel * 2.007874f - 1.007874f, 0.0f, 1.0f);
-    factors.layer1 = clamp(texel * -2.007874f + 1.007874f, 0.0f, 1.0f);
+    factors.layer0 = clamp(texel * 2.007874 - 1.007874, 0.0, 1.0);
+    factors.layer1 = clamp(texel * -2.007874 + 1.007874, 0.0, 1.0);
     return factors;
 }
 
 // How far a direction has turned from the nearest axis to the diagonal, 0 to 1. sine: of its angle to the axis, that is
 // the smaller component of the unit vector, 0 to 0.7071. Within 0.35 degrees of the true angle, exact at both ends;
 // goes on growing beyond.
-float bumpshadow_turn_to_diagonal(float sine) { return sine * (1.1769721f + 0.3355101f * sine); }
+float bumpshadow_turn_to_diagonal(float sine) { return sine * (1.1769721 + 0.3355101 * sine); }
 
 // Without a cube. light: to the light, in the surface, of any length whose square neither overflows nor vanishes; (0,
 // 0) counts as +x, as for bearings.
 bumpshadow_eight bumpshadow_factors(float2 light) {
     float inverse = rsqrt(bumpshadow_square(light));
-    float x = (light.x + 1e-15f) * inverse;
+    float x = (light.x + 1e-15) * inverse;
     float y = light.y * inverse;
     // The turn away from the other axis, with the component's sign.
-    x = x * (1.1769721f + 0.3355101f * abs(x));
-    y = y * (1.1769721f + 0.3355101f * abs(y));
-    float along_x = 1.0f - abs(y);
-    float along_y = 1.0f - abs(x);
+    x = x * (1.1769721 + 0.3355101 * abs(x));
+    y = y * (1.1769721 + 0.3355101 * abs(y));
+    float along_x = 1.0 - abs(y);
+    float along_y = 1.0 - abs(x);
     bumpshadow_eight factors;
-    factors.layer0 = clamp(float4(min(along_x, x), min(x, y), min(along_y, y), min(-x, y)), 0.0f, 1.0f);
-    factors.layer1 = clamp(float4(min(along_x, -x), min(-x, -y), min(along_y, -y), min(x, -y)), 0.0f, 1.0f);
+    factors.layer0 = clamp(float4(min(along_x, x), min(x, y), min(along_y, y), min(-x, y)), 0.0, 1.0);
+    factors.layer1 = clamp(float4(min(along_x, -x), min(-x, -y), min(along_y, -y), min(x, -y)), 0.0, 1.0);
     return factors;
 }
 
 // The same from a bearing, in turns, any number.
 bumpshadow_eight bumpshadow_factors_of_bearing(float bearing) {
     // Turns to each direction of layer 0; the ones of layer 1 lie opposite.
-    float4 away = abs(frac(float4(bearing, bearing, bearing, bearing) + float4(0.5f, 0.375f, 0.25f, 0.125f)) - 0.5f);
+    float4 away = abs(frac(float4(bearing, bearing, bearing, bearing) + float4(0.5, 0.375, 0.25, 0.125)) - 0.5);
     bumpshadow_eight factors;
-    factors.layer0 = clamp(1.0f - 8.0f * away, 0.0f, 1.0f);
-    factors.layer1 = clamp(8.0f * away - 3.0f, 0.0f, 1.0f);
+    factors.layer0 = clamp(1.0 - 8.0 * away, 0.0, 1.0);
+    factors.layer1 = clamp(8.0 * away - 3.0, 0.0, 1.0);
     return factors;
 }
 
@@ -303,15 +303,15 @@ float bumpshadow_angle(float3 light) { return atan(bumpshadow_slope(light)); }
 
 // stored: the three channels, in [0, 1]; (1, 1, 1) / 2, which has no direction, gives straight up.
 float3 bumpshadow_normal(float3 stored, float y) {
-    float3 normal = float3(2.0f * stored.x - 1.0f, y * (2.0f * stored.y - 1.0f), 2.0f * stored.z - 1.0f);
+    float3 normal = float3(2.0 * stored.x - 1.0, y * (2.0 * stored.y - 1.0), 2.0 * stored.z - 1.0);
     float square = dot(normal, normal);
-    return square > 1e-4f ? normal * rsqrt(square) : float3(0.0f, 0.0f, 1.0f);
+    return square > 1e-4 ? normal * rsqrt(square) : float3(0.0, 0.0, 1.0);
 }
 
 // Partial-derivative form: stored are dz/dx and dz/dy of the surface, over max_slope, from [-1, 1] to [0, 1]. Needs two
 // channels, and derivatives of several maps may be added. Steeper slopes are not stored.
 float3 bumpshadow_normal_of_derivatives(float2 stored, float max_slope, float y) {
-    float3 normal = float3(max_slope * (1.0f - 2.0f * stored.x), y * max_slope * (1.0f - 2.0f * stored.y), 1.0f);
+    float3 normal = float3(max_slope * (1.0 - 2.0 * stored.x), y * max_slope * (1.0 - 2.0 * stored.y), 1.0);
     return normal * rsqrt(dot(normal, normal));
 }
 
@@ -323,23 +323,23 @@ float3 bumpshadow_normal_of_derivatives(float2 stored, float max_slope, float y)
 
 // No soft edge: the limit of large k.
 float bumpshadow_shadow_hard(float light, float horizon) {
-    return light >= max(horizon, 0.0f) ? 1.0f : 0.0f;
+    return light >= max(horizon, 0.0) ? 1.0 : 0.0;
 }
 
 // clamp(k (light - horizon) + c, 0, 1), for a light that is never below the surface or does not shine there anyway.
 float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
-    return clamp(min(k, 1e30f) * (light - horizon) + c, 0.0f, 1.0f);
+    return clamp(min(k, 1e30) * (light - horizon) + c, 0.0, 1.0);
 }
 
 // The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2019, equation 5.4); c
 // = 0.5: it is centered. k from 0 to infinity.
 float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
-    return light >= 0.0f ? bumpshadow_shadow_soft_above(light, horizon, k, c) : 0.0f;
+    return light >= 0.0 ? bumpshadow_shadow_soft_above(light, horizon, k, c) : 0.0;
 }
 
 // Shadows that end with distance: the factor up to `start`, 1 from `end` on.
 float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
-    return lerp(factor, 1.0f, clamp((distance - start) / max(end - start, 1e-30f), 0.0f, 1.0f));
+    return lerp(factor, 1.0, clamp((distance - start) / max(end - start, 1e-30), 0.0, 1.0));
 }
 
 // ---- sine_layers ----
@@ -358,24 +358,24 @@ float bumpshadow_sine_layers(float4 layer0, float4 layer1, float2 light) {
     float x = abs(light.x);
     float y = abs(light.y);
     float part = bumpshadow_turn_to_diagonal(min(x, y) * rsqrt(bumpshadow_square(light)));
-    float along_x = light.x >= 0.0f ? layer0.x : layer1.x;
-    float along_y = light.y >= 0.0f ? layer0.z : layer1.z;
-    float diagonal_up = light.x >= 0.0f ? layer0.y : layer0.w;
-    float diagonal_down = light.x >= 0.0f ? layer1.w : layer1.y;
+    float along_x = light.x >= 0.0 ? layer0.x : layer1.x;
+    float along_y = light.y >= 0.0 ? layer0.z : layer1.z;
+    float diagonal_up = light.x >= 0.0 ? layer0.y : layer0.w;
+    float diagonal_down = light.x >= 0.0 ? layer1.w : layer1.y;
     float axis = y > x ? along_y : along_x;
-    float diagonal = light.y >= 0.0f ? diagonal_up : diagonal_down;
+    float diagonal = light.y >= 0.0 ? diagonal_up : diagonal_down;
     return axis + part * (diagonal - axis);
 }
 
 // An array of both layers: the one to sample whole, and of the other one, 1 - this, only the first channel.
-float bumpshadow_sine_first_layer(float2 light) { return light.y >= 0.0f ? 0.0f : 1.0f; }
+float bumpshadow_sine_first_layer(float2 light) { return light.y >= 0.0 ? 0.0 : 1.0; }
 
 // What bumpshadow_sine_layers gives, from these two; fewer instructions still.
 float bumpshadow_sine_half(float4 first, float other, float2 light) {
     float x = abs(light.x);
     float y = abs(light.y);
     float part = bumpshadow_turn_to_diagonal(min(x, y) * rsqrt(bumpshadow_square(light)));
-    bool ahead = (light.x >= 0.0f) == (light.y >= 0.0f);
+    bool ahead = (light.x >= 0.0) == (light.y >= 0.0);
     float level = ahead ? first.x : other;
     float axis = y > x ? first.z : level;
     float diagonal = ahead ? first.y : first.w;
@@ -397,39 +397,39 @@ float bumpshadow_slice_position(float bearing, float phase, float slices) {
 // [0, 4].
 float3 bumpshadow_grouped_layers(float position, float layers) {
     // A little less than a quarter, so that N finds the last layer; a place of 4 is as good as 0 in the next one.
-    float layer = floor(position * 0.24999996f);
-    float next = layer + 1.0f;
-    return float3(layer, next < layers ? next : 0.0f, position - 4.0f * layer);
+    float layer = floor(position * 0.24999996);
+    float next = layer + 1.0;
+    return float3(layer, next < layers ? next : 0.0, position - 4.0 * layer);
 }
 
 // Parts of the four channels: those of hat functions around 0, 1, 2, 3.
 float4 bumpshadow_slice_parts(float place) {
-    return max(float4(1.0f, 1.0f, 1.0f, 1.0f) - abs(float4(place, place - 1.0f, place - 2.0f, place - 3.0f)),
-               float4(0.0f, 0.0f, 0.0f, 0.0f));
+    return max(float4(1.0, 1.0, 1.0, 1.0) - abs(float4(place, place - 1.0, place - 2.0, place - 3.0)),
+               float4(0.0, 0.0, 0.0, 0.0));
 }
 
 // Horizon from layer x, and the first channel of layer y.
 float bumpshadow_grouped_horizon(float4 values, float next_value, float place) {
     // Of the two neighbors one is even, the other odd.
-    float past = place - 2.0f;
-    float even = abs(past) < 1.0f ? values.z : past < 0.0f ? values.x : next_value;
-    float odd = past < 0.0f ? values.y : values.w;
-    return odd + abs(abs(past) - 1.0f) * (even - odd);
+    float past = place - 2.0;
+    float even = abs(past) < 1.0 ? values.z : past < 0.0 ? values.x : next_value;
+    float odd = past < 0.0 ? values.y : values.w;
+    return odd + abs(abs(past) - 1.0) * (even - odd);
 }
 
 // Layers that overlap by one slice, one fetch. x: layer; y: position from its first channel on, in [0, 3].
 float2 bumpshadow_overlapping_layer(float position) {
     // A little less than a third, so that N finds the last layer.
-    float layer = floor(position * 0.33333328f);
-    return float2(layer, position - 3.0f * layer);
+    float layer = floor(position * 0.33333328);
+    return float2(layer, position - 3.0 * layer);
 }
 
 // Horizon from the layer.
 float bumpshadow_overlapping_horizon(float4 values, float place) {
-    float past = place - 2.0f;
-    float even = past < -1.0f ? values.x : values.z;
-    float odd = past < 0.0f ? values.y : values.w;
-    return odd + abs(abs(past) - 1.0f) * (even - odd);
+    float past = place - 2.0;
+    float even = past < -1.0 ? values.x : values.z;
+    float odd = past < 0.0 ? values.y : values.w;
+    return odd + abs(abs(past) - 1.0) * (even - odd);
 }
 
 // ---- ssbump ----
@@ -446,55 +446,55 @@ float3 bumpshadow_ssbump_other_hand(float3 masks) { return float3(masks.x, masks
 
 // Sum of the basis vectors, each times its mask; not unit length.
 float3 bumpshadow_ssbump_sum(float3 masks) {
-    return float3(0.81649658f * masks.x - 0.40824829f * (masks.y + masks.z), 0.70710678f * (masks.y - masks.z),
-                0.57735027f * (masks.x + masks.y + masks.z));
+    return float3(0.81649658 * masks.x - 0.40824829 * (masks.y + masks.z), 0.70710678 * (masks.y - masks.z),
+                0.57735027 * (masks.x + masks.y + masks.z));
 }
 
 // Three dots with the basis, the inverse of the sum: the masks of a unit normal as long as none is negative, which they
 // are not up to a tilt of 35.26 degrees, asin(1/sqrt(3)); beyond, some bearings make one negative.
 float3 bumpshadow_ssbump_project(float3 v) {
-    float up = 0.57735027f * v.z;
-    float side = 0.70710678f * v.y;
-    float back = up - 0.40824829f * v.x;
-    return float3(0.81649658f * v.x + up, back + side, back - side);
+    float up = 0.57735027 * v.z;
+    float side = 0.70710678 * v.y;
+    float back = up - 0.40824829 * v.x;
+    return float3(0.81649658 * v.x + up, back + side, back - side);
 }
 
 // Unit normal: of the surface for masks without occlusion, else bent towards where it is open. Black gives straight up.
 float3 bumpshadow_ssbump_normal(float3 masks) {
     float3 sum = bumpshadow_ssbump_sum(masks);
     float square = dot(sum, sum);
-    return square > 1e-8f ? sum * rsqrt(square) : float3(0.0f, 0.0f, 1.0f);
+    return square > 1e-8 ? sum * rsqrt(square) : float3(0.0, 0.0, 1.0);
 }
 
 // The basis concatenated with the way from tangent space to the world, whose axes are unit vectors in the world: once a
 // vertex or a pixel. Any of the sums above then lands in the world.
 float3 bumpshadow_ssbump_world_red(float3 tangent, float3 normal) {
-    return 0.81649658f * tangent + 0.57735027f * normal;
+    return 0.81649658 * tangent + 0.57735027 * normal;
 }
 
 float3 bumpshadow_ssbump_world_green(float3 tangent, float3 bitangent, float3 normal) {
-    return 0.70710678f * bitangent - 0.40824829f * tangent + 0.57735027f * normal;
+    return 0.70710678 * bitangent - 0.40824829 * tangent + 0.57735027 * normal;
 }
 
 float3 bumpshadow_ssbump_world_blue(float3 tangent, float3 bitangent, float3 normal) {
-    return 0.57735027f * normal - 0.40824829f * tangent - 0.70710678f * bitangent;
+    return 0.57735027 * normal - 0.40824829 * tangent - 0.70710678 * bitangent;
 }
 
 // Straight to a unit normal in the world; red, green, blue: from the three functions above. Black gives the zero
 // vector.
 float3 bumpshadow_ssbump_world_normal(float3 masks, float3 red, float3 green, float3 blue) {
     float3 sum = masks.x * red + masks.y * green + masks.z * blue;
-    return sum * rsqrt(max(dot(sum, sum), 1e-20f));
+    return sum * rsqrt(max(dot(sum, sum), 1e-20));
 }
 
 // Where a ray from the eye goes on to: `eye` points to the eye, `normal` is unit length, both in the same space.
-float3 bumpshadow_reflection(float3 eye, float3 normal) { return 2.0f * dot(normal, eye) * normal - eye; }
+float3 bumpshadow_reflection(float3 eye, float3 normal) { return 2.0 * dot(normal, eye) * normal - eye; }
 
 // A gray detail map multiplied in: the recovered normal stays. detail: 1 changes nothing.
 float3 bumpshadow_ssbump_detail(float3 masks, float detail) { return masks * detail; }
 
 // A second SSBump map as detail, packed so that flat is 0.5. The product may exceed 1: a target of 8 bits clamps it.
-float3 bumpshadow_ssbump_detail_masks(float3 masks, float3 detail) { return 2.0f * masks * detail; }
+float3 bumpshadow_ssbump_detail_masks(float3 masks, float3 detail) { return 2.0 * masks * detail; }
 
 // Diffuse light from three lightmaps, one for each basis vector b, each simply multiplied by its mask. Exact for a
 // light from anywhere that all three face, since the basis is orthonormal. Lightmaps that hold the irradiance on planes
@@ -509,16 +509,16 @@ float3 bumpshadow_ssbump_lightmaps(float3 masks, float3 red, float3 green, float
 // The same lightmaps with an ordinary normal map (McTaggart 2004, Half-Life 2 / Valve Source Shading): weights are the
 // squares of the clamped dots, over their sum.
 float3 bumpshadow_normal_lightmaps(float3 normal, float3 red, float3 green, float3 blue) {
-    float3 dots = max(bumpshadow_ssbump_project(normal), 0.0f);
+    float3 dots = max(bumpshadow_ssbump_project(normal), 0.0);
     float3 squares = dots * dots;
-    float sum = max(squares.x + squares.y + squares.z, 1e-20f);
-    return (squares.x * red + squares.y * green + squares.z * blue) * (1.0f / sum);
+    float sum = max(squares.x + squares.y + squares.z, 1e-20);
+    return (squares.x * red + squares.y * green + squares.z * blue) * (1.0 / sum);
 }
 
 // A dynamic light projected on the basis: three dots, clamped. light: towards the light in tangent space, as long as it
 // is strong. Once an object or vertex for lights that are far. As with a normal map, a light a little below the surface
 // still shines on slopes that face it.
-float3 bumpshadow_ssbump_weights(float3 light) { return max(bumpshadow_ssbump_project(light), 0.0f); }
+float3 bumpshadow_ssbump_weights(float3 light) { return max(bumpshadow_ssbump_project(light), 0.0); }
 
 // Diffuse light of a dynamic light; weights: from the function above. In place of the clamped dot of normal and light,
 // and of a shadow factor.
@@ -537,9 +537,9 @@ float bumpshadow_volume_coordinate(float bearing, float offset) { return bearing
 // sign.
 float3 bumpshadow_tangent_layers(float bearing, float phase, float slices) {
     float position = frac(bearing - phase) * slices;
-    float layer = min(floor(position), slices - 1.0f);
-    float next = layer + 1.0f;
-    return float3(layer, next < slices ? next : 0.0f, position - layer);
+    float layer = min(floor(position), slices - 1.0);
+    float next = layer + 1.0;
+    return float3(layer, next < slices ? next : 0.0, position - layer);
 }
 
 // Horizon from the two values.
@@ -583,26 +583,26 @@ float2 bumpshadow_vertex_bearing_exact(float3 light, float most) {
 
 // Direction (xy, of length 1; 0 straight up, so that such a vertex leaves the direction to the others) and slope (z).
 float3 bumpshadow_vertex_direction(float3 light, float most) {
-    float inverse = rsqrt(max(light.x * light.x + light.y * light.y, 1e-30f));
+    float inverse = rsqrt(max(light.x * light.x + light.y * light.y, 1e-30));
     return float3(light.x * inverse, light.y * inverse, bumpshadow_vertex_slope(light, most));
 }
 
 // Bearings of a triangle's vertices moved by whole turns to within half a turn of the first, as Direct3D's wrap mode
 // did: 0.1, 0.2, 0.9 becomes 0.1, 0.2, -0.1. For geometry and mesh shaders, and for lights that are fixed in a mesh.
 float3 bumpshadow_unwrap_bearings(float3 bearings) {
-    return float3(bearings.x, bearings.y - floor(bearings.y - bearings.x + 0.5f),
-                bearings.z - floor(bearings.z - bearings.x + 0.5f));
+    return float3(bearings.x, bearings.y - floor(bearings.y - bearings.x + 0.5),
+                bearings.z - floor(bearings.z - bearings.x + 0.5));
 }
 
 // True where the light stands above the triangle: its unwrapped bearings go round, and no bearings that are
 // interpolated linearly can be right.
-bool bumpshadow_bearings_go_round(float3 unwrapped) { return abs(unwrapped.y - unwrapped.z) > 0.5f; }
+bool bumpshadow_bearings_go_round(float3 unwrapped) { return abs(unwrapped.y - unwrapped.z) > 0.5; }
 
 // Without neighbors: interpolate a bearing twice, once with its seam at 0 and once at half a turn. A triangle that
 // spans less than half a turn crosses one of the two at most; there that one changes faster. Source: Tarini,
 // Cylindrical and Toroidal Parameterizations Without Vertex Seams, 2012.
 float2 bumpshadow_bearing_pair(float bearing) {
-    return float2(frac(bearing), frac(bearing + 0.5f) - 0.5f);
+    return float2(frac(bearing), frac(bearing + 0.5) - 0.5);
 }
 
 // change: fwidth of the pair.
@@ -642,9 +642,9 @@ float bumpshadow_shadow(float light, float horizon, float k) {
 #if BUMPSHADOW_EDGE == 0
     return bumpshadow_shadow_hard(light, horizon);
 #elif BUMPSHADOW_BELOW == 0
-    return bumpshadow_shadow_soft_above(light, horizon, k, BUMPSHADOW_EDGE == 1 ? 1.0f : 0.5f);
+    return bumpshadow_shadow_soft_above(light, horizon, k, BUMPSHADOW_EDGE == 1 ? 1.0 : 0.5);
 #else
-    return bumpshadow_shadow_soft(light, horizon, k, BUMPSHADOW_EDGE == 1 ? 1.0f : 0.5f);
+    return bumpshadow_shadow_soft(light, horizon, k, BUMPSHADOW_EDGE == 1 ? 1.0 : 0.5);
 #endif
 }
 
@@ -664,7 +664,7 @@ float bumpshadow_sample_slices(Texture2DArray map, SamplerState how, float2 uv, 
 
 float bumpshadow_sample_grouped(Texture2DArray map, SamplerState how, float2 uv, float3 light, float phase, float slices) {
     float position = bumpshadow_slice_position(bumpshadow_bearing(light.xy), phase, slices);
-    float3 at = bumpshadow_grouped_layers(position, slices * 0.25f);
+    float3 at = bumpshadow_grouped_layers(position, slices * 0.25);
     return bumpshadow_grouped_horizon(map.Sample(how, float3(uv, at.x)), map.Sample(how, float3(uv, at.y)).r, at.z);
 }
 
@@ -676,7 +676,7 @@ float bumpshadow_sample_overlapping(Texture2DArray map, SamplerState how, float2
 
 float bumpshadow_sample_sine_layers(Texture2DArray map, SamplerState how, float2 uv, float3 light) {
     float first = bumpshadow_sine_first_layer(light.xy);
-    return bumpshadow_sine_half(map.Sample(how, float3(uv, first)), map.Sample(how, float3(uv, 1.0f - first)).r, light.xy);
+    return bumpshadow_sine_half(map.Sample(how, float3(uv, first)), map.Sample(how, float3(uv, 1.0 - first)).r, light.xy);
 }
 
 float bumpshadow_sample_two_maps(Texture2D first, Texture2D second, SamplerState how, float2 uv, float3 light) {
@@ -685,7 +685,7 @@ float bumpshadow_sample_two_maps(Texture2D first, Texture2D second, SamplerState
 
 // Factors from a cube, biased.
 float bumpshadow_sample_with_cube(Texture2DArray map, TextureCube cube, SamplerState how, float2 uv, float3 light) {
-    return bumpshadow_sine_layers_factors(map.Sample(how, float3(uv, 0.0f)), map.Sample(how, float3(uv, 1.0f)),
+    return bumpshadow_sine_layers_factors(map.Sample(how, float3(uv, 0.0)), map.Sample(how, float3(uv, 1.0)),
                                           bumpshadow_factors_biased_cube(cube.Sample(how, light)));
 }
 

@@ -22,7 +22,7 @@ R"~(// Square of a length, never 0. Its inverse root is shared by all that is co
 )~",
 R"~(float bumpshadow_square(vec2 v) { return v.x * v.x + (v.y * v.y + 1e-30); }
 )~",
-R"~(float bumpshadow_square(float2 v) { return v.x * v.x + (v.y * v.y + 1e-30f); }
+R"~(float bumpshadow_square(float2 v) { return v.x * v.x + (v.y * v.y + 1e-30); }
 )~",
      {0x1u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_steep",
@@ -51,8 +51,8 @@ R"~(float bumpshadow_unfold(vec2 v, float turns) {
 }
 )~",
 R"~(float bumpshadow_unfold(float2 v, float turns) {
-    float past = turns - 0.25f;
-    return (v.x >= -v.y ? past : -past) + (bumpshadow_steep(v) ? 0.5f : 0.25f);
+    float past = turns - 0.25;
+    return (v.x >= -v.y ? past : -past) + (bumpshadow_steep(v) ? 0.5 : 0.25);
 }
 )~",
      {0xau, 0x0u, 0x0u, 0x0u}},
@@ -70,9 +70,9 @@ R"~(float bumpshadow_bearing_exact(vec2 v) {
 R"~(float bumpshadow_bearing_exact(float2 v) {
     float sine = bumpshadow_across(v) * rsqrt(bumpshadow_square(v));
     float square = sine * sine;
-    float high = 0.0116049032f + square * (square * 0.0181935507f - 0.00773401597f);
+    float high = 0.0116049032 + square * (square * 0.0181935507 - 0.00773401597);
     return bumpshadow_unfold(
-        v, sine * (0.159153938f + square * (0.026577197f + square * (0.0111934934f + square * high))));
+        v, sine * (0.159153938 + square * (0.026577197 + square * (0.0111934934 + square * high))));
 }
 )~",
      {0x1fu, 0x0u, 0x0u, 0x0u}},
@@ -87,7 +87,7 @@ R"~(float bumpshadow_bearing_quintic(vec2 v) {
 R"~(float bumpshadow_bearing_quintic(float2 v) {
     float sine = bumpshadow_across(v) * rsqrt(bumpshadow_square(v));
     float square = sine * sine;
-    return bumpshadow_unfold(v, sine * (0.15944586f + square * (0.022631394f + square * 0.024060546f)));
+    return bumpshadow_unfold(v, sine * (0.15944586 + square * (0.022631394 + square * 0.024060546)));
 }
 )~",
      {0x2fu, 0x0u, 0x0u, 0x0u}},
@@ -100,7 +100,7 @@ R"~(float bumpshadow_bearing_cubic(vec2 v) {
 )~",
 R"~(float bumpshadow_bearing_cubic(float2 v) {
     float sine = bumpshadow_across(v) * rsqrt(bumpshadow_square(v));
-    return bumpshadow_unfold(v, sine * (0.15703793f + 0.039477522f * sine * sine));
+    return bumpshadow_unfold(v, sine * (0.15703793 + 0.039477522 * sine * sine));
 }
 )~",
      {0x4fu, 0x0u, 0x0u, 0x0u}},
@@ -111,7 +111,7 @@ R"~(float bumpshadow_bearing_octant(vec2 v) {
 }
 )~",
 R"~(float bumpshadow_bearing_octant(float2 v) {
-    return bumpshadow_unfold(v, 0.1767767f * bumpshadow_across(v) * rsqrt(bumpshadow_square(v)));
+    return bumpshadow_unfold(v, 0.1767767 * bumpshadow_across(v) * rsqrt(bumpshadow_square(v)));
 }
 )~",
      {0x8fu, 0x0u, 0x0u, 0x0u}},
@@ -122,7 +122,7 @@ R"~(float bumpshadow_bearing_diamond(vec2 v) {
 }
 )~",
 R"~(float bumpshadow_bearing_diamond(float2 v) {
-    return bumpshadow_unfold(v, 0.25f * bumpshadow_across(v) / max(abs(v.x) + abs(v.y), 1e-30f));
+    return bumpshadow_unfold(v, 0.25 * bumpshadow_across(v) / max(abs(v.x) + abs(v.y), 1e-30));
 }
 )~",
      {0x10eu, 0x0u, 0x0u, 0x0u}},
@@ -138,7 +138,7 @@ R"~(vec2 bumpshadow_emboss_shift(vec3 light, vec2 amount) {
 }
 )~",
 R"~(float2 bumpshadow_emboss_shift(float3 light, float2 amount) {
-    float inverse = rsqrt(max(dot(light, light), 1e-30f));
+    float inverse = rsqrt(max(dot(light, light), 1e-30));
     return float2(light.x * inverse * amount.x, light.y * inverse * amount.y);
 }
 )~",
@@ -148,7 +148,7 @@ R"~(// Inverse of a height, in place of a second texture.
 )~",
 R"~(float bumpshadow_emboss_inverse(float height) { return 0.50196078 - height; }
 )~",
-R"~(float bumpshadow_emboss_inverse(float height) { return 0.50196078f - height; }
+R"~(float bumpshadow_emboss_inverse(float height) { return 0.50196078 - height; }
 )~",
      {0x400u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_emboss_relief",
@@ -159,7 +159,7 @@ R"~(float bumpshadow_emboss_relief(float height, float shifted_inverse) {
 }
 )~",
 R"~(float bumpshadow_emboss_relief(float height, float shifted_inverse) {
-    return clamp(height + shifted_inverse, 0.0f, 1.0f);
+    return clamp(height + shifted_inverse, 0.0, 1.0);
 }
 )~",
      {0x800u, 0x0u, 0x0u, 0x0u}},
@@ -171,7 +171,7 @@ R"~(vec3 bumpshadow_emboss(float relief, vec3 base, vec3 color) {
 }
 )~",
 R"~(float3 bumpshadow_emboss(float relief, float3 base, float3 color) {
-    return min(2.0f * relief * base, float3(1.0f, 1.0f, 1.0f)) * color;
+    return min(2.0 * relief * base, float3(1.0, 1.0, 1.0)) * color;
 }
 )~",
      {0x1000u, 0x0u, 0x0u, 0x0u}},
@@ -201,8 +201,8 @@ R"~(bumpshadow_eight bumpshadow_factors_published_cube(vec4 texel) {
 )~",
 R"~(bumpshadow_eight bumpshadow_factors_published_cube(float4 texel) {
     bumpshadow_eight factors;
-    factors.layer0 = clamp(texel * 2.0f - 1.0f, 0.0f, 1.0f);
-    factors.layer1 = clamp(texel * -2.0f + 1.0f, 0.0f, 1.0f);
+    factors.layer0 = clamp(texel * 2.0 - 1.0, 0.0, 1.0);
+    factors.layer1 = clamp(texel * -2.0 + 1.0, 0.0, 1.0);
     return factors;
 }
 )~",
@@ -219,8 +219,8 @@ R"~(bumpshadow_eight bumpshadow_factors_biased_cube(vec4 texel) {
 )~",
 R"~(bumpshadow_eight bumpshadow_factors_biased_cube(float4 texel) {
     bumpshadow_eight factors;
-    factors.layer0 = clamp(texel * 2.007874f - 1.007874f, 0.0f, 1.0f);
-    factors.layer1 = clamp(texel * -2.007874f + 1.007874f, 0.0f, 1.0f);
+    factors.layer0 = clamp(texel * 2.007874 - 1.007874, 0.0, 1.0);
+    factors.layer1 = clamp(texel * -2.007874 + 1.007874, 0.0, 1.0);
     return factors;
 }
 )~",
@@ -232,7 +232,7 @@ R"~(// How far a direction has turned from the nearest axis to the diagonal, 0 t
 )~",
 R"~(float bumpshadow_turn_to_diagonal(float sine) { return sine * (1.1769721 + 0.3355101 * sine); }
 )~",
-R"~(float bumpshadow_turn_to_diagonal(float sine) { return sine * (1.1769721f + 0.3355101f * sine); }
+R"~(float bumpshadow_turn_to_diagonal(float sine) { return sine * (1.1769721 + 0.3355101 * sine); }
 )~",
      {0x10000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_factors",
@@ -256,16 +256,16 @@ R"~(bumpshadow_eight bumpshadow_factors(vec2 light) {
 )~",
 R"~(bumpshadow_eight bumpshadow_factors(float2 light) {
     float inverse = rsqrt(bumpshadow_square(light));
-    float x = (light.x + 1e-15f) * inverse;
+    float x = (light.x + 1e-15) * inverse;
     float y = light.y * inverse;
     // The turn away from the other axis, with the component's sign.
-    x = x * (1.1769721f + 0.3355101f * abs(x));
-    y = y * (1.1769721f + 0.3355101f * abs(y));
-    float along_x = 1.0f - abs(y);
-    float along_y = 1.0f - abs(x);
+    x = x * (1.1769721 + 0.3355101 * abs(x));
+    y = y * (1.1769721 + 0.3355101 * abs(y));
+    float along_x = 1.0 - abs(y);
+    float along_y = 1.0 - abs(x);
     bumpshadow_eight factors;
-    factors.layer0 = clamp(float4(min(along_x, x), min(x, y), min(along_y, y), min(-x, y)), 0.0f, 1.0f);
-    factors.layer1 = clamp(float4(min(along_x, -x), min(-x, -y), min(along_y, -y), min(x, -y)), 0.0f, 1.0f);
+    factors.layer0 = clamp(float4(min(along_x, x), min(x, y), min(along_y, y), min(-x, y)), 0.0, 1.0);
+    factors.layer1 = clamp(float4(min(along_x, -x), min(-x, -y), min(along_y, -y), min(x, -y)), 0.0, 1.0);
     return factors;
 }
 )~",
@@ -284,10 +284,10 @@ R"~(bumpshadow_eight bumpshadow_factors_of_bearing(float bearing) {
 )~",
 R"~(bumpshadow_eight bumpshadow_factors_of_bearing(float bearing) {
     // Turns to each direction of layer 0; the ones of layer 1 lie opposite.
-    float4 away = abs(frac(float4(bearing, bearing, bearing, bearing) + float4(0.5f, 0.375f, 0.25f, 0.125f)) - 0.5f);
+    float4 away = abs(frac(float4(bearing, bearing, bearing, bearing) + float4(0.5, 0.375, 0.25, 0.125)) - 0.5);
     bumpshadow_eight factors;
-    factors.layer0 = clamp(1.0f - 8.0f * away, 0.0f, 1.0f);
-    factors.layer1 = clamp(8.0f * away - 3.0f, 0.0f, 1.0f);
+    factors.layer0 = clamp(1.0 - 8.0 * away, 0.0, 1.0);
+    factors.layer1 = clamp(8.0 * away - 3.0, 0.0, 1.0);
     return factors;
 }
 )~",
@@ -451,9 +451,9 @@ R"~(vec3 bumpshadow_normal(vec3 stored, float y) {
 }
 )~",
 R"~(float3 bumpshadow_normal(float3 stored, float y) {
-    float3 normal = float3(2.0f * stored.x - 1.0f, y * (2.0f * stored.y - 1.0f), 2.0f * stored.z - 1.0f);
+    float3 normal = float3(2.0 * stored.x - 1.0, y * (2.0 * stored.y - 1.0), 2.0 * stored.z - 1.0);
     float square = dot(normal, normal);
-    return square > 1e-4f ? normal * rsqrt(square) : float3(0.0f, 0.0f, 1.0f);
+    return square > 1e-4 ? normal * rsqrt(square) : float3(0.0, 0.0, 1.0);
 }
 )~",
      {0x80000000u, 0x0u, 0x0u, 0x0u}},
@@ -467,7 +467,7 @@ R"~(vec3 bumpshadow_normal_of_derivatives(vec2 stored, float max_slope, float y)
 }
 )~",
 R"~(float3 bumpshadow_normal_of_derivatives(float2 stored, float max_slope, float y) {
-    float3 normal = float3(max_slope * (1.0f - 2.0f * stored.x), y * max_slope * (1.0f - 2.0f * stored.y), 1.0f);
+    float3 normal = float3(max_slope * (1.0 - 2.0 * stored.x), y * max_slope * (1.0 - 2.0 * stored.y), 1.0);
     return normal * rsqrt(dot(normal, normal));
 }
 )~",
@@ -480,7 +480,7 @@ R"~(float bumpshadow_shadow_hard(float light, float horizon) {
 }
 )~",
 R"~(float bumpshadow_shadow_hard(float light, float horizon) {
-    return light >= max(horizon, 0.0f) ? 1.0f : 0.0f;
+    return light >= max(horizon, 0.0) ? 1.0 : 0.0;
 }
 )~",
      {0x200000000u, 0x0u, 0x0u, 0x0u}},
@@ -492,7 +492,7 @@ R"~(float bumpshadow_shadow_soft_above(float light, float horizon, float k, floa
 }
 )~",
 R"~(float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
-    return clamp(min(k, 1e30f) * (light - horizon) + c, 0.0f, 1.0f);
+    return clamp(min(k, 1e30) * (light - horizon) + c, 0.0, 1.0);
 }
 )~",
      {0x400000000u, 0x0u, 0x0u, 0x0u}},
@@ -505,7 +505,7 @@ R"~(float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
 }
 )~",
 R"~(float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
-    return light >= 0.0f ? bumpshadow_shadow_soft_above(light, horizon, k, c) : 0.0f;
+    return light >= 0.0 ? bumpshadow_shadow_soft_above(light, horizon, k, c) : 0.0;
 }
 )~",
      {0xc00000000u, 0x0u, 0x0u, 0x0u}},
@@ -517,7 +517,7 @@ R"~(float bumpshadow_shadow_fade(float factor, float distance, float start, floa
 }
 )~",
 R"~(float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
-    return lerp(factor, 1.0f, clamp((distance - start) / max(end - start, 1e-30f), 0.0f, 1.0f));
+    return lerp(factor, 1.0, clamp((distance - start) / max(end - start, 1e-30), 0.0, 1.0));
 }
 )~",
      {0x1000000000u, 0x0u, 0x0u, 0x0u}},
@@ -553,12 +553,12 @@ R"~(float bumpshadow_sine_layers(float4 layer0, float4 layer1, float2 light) {
     float x = abs(light.x);
     float y = abs(light.y);
     float part = bumpshadow_turn_to_diagonal(min(x, y) * rsqrt(bumpshadow_square(light)));
-    float along_x = light.x >= 0.0f ? layer0.x : layer1.x;
-    float along_y = light.y >= 0.0f ? layer0.z : layer1.z;
-    float diagonal_up = light.x >= 0.0f ? layer0.y : layer0.w;
-    float diagonal_down = light.x >= 0.0f ? layer1.w : layer1.y;
+    float along_x = light.x >= 0.0 ? layer0.x : layer1.x;
+    float along_y = light.y >= 0.0 ? layer0.z : layer1.z;
+    float diagonal_up = light.x >= 0.0 ? layer0.y : layer0.w;
+    float diagonal_down = light.x >= 0.0 ? layer1.w : layer1.y;
     float axis = y > x ? along_y : along_x;
-    float diagonal = light.y >= 0.0f ? diagonal_up : diagonal_down;
+    float diagonal = light.y >= 0.0 ? diagonal_up : diagonal_down;
     return axis + part * (diagonal - axis);
 }
 )~",
@@ -568,7 +568,7 @@ R"~(// An array of both layers: the one to sample whole, and of the other one, 1
 )~",
 R"~(float bumpshadow_sine_first_layer(vec2 light) { return light.y >= 0.0 ? 0.0 : 1.0; }
 )~",
-R"~(float bumpshadow_sine_first_layer(float2 light) { return light.y >= 0.0f ? 0.0f : 1.0f; }
+R"~(float bumpshadow_sine_first_layer(float2 light) { return light.y >= 0.0 ? 0.0 : 1.0; }
 )~",
      {0x8000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_sine_half",
@@ -589,7 +589,7 @@ R"~(float bumpshadow_sine_half(float4 first, float other, float2 light) {
     float x = abs(light.x);
     float y = abs(light.y);
     float part = bumpshadow_turn_to_diagonal(min(x, y) * rsqrt(bumpshadow_square(light)));
-    bool ahead = (light.x >= 0.0f) == (light.y >= 0.0f);
+    bool ahead = (light.x >= 0.0) == (light.y >= 0.0);
     float level = ahead ? first.x : other;
     float axis = y > x ? first.z : level;
     float diagonal = ahead ? first.y : first.w;
@@ -622,9 +622,9 @@ R"~(vec3 bumpshadow_grouped_layers(float position, float layers) {
 )~",
 R"~(float3 bumpshadow_grouped_layers(float position, float layers) {
     // A little less than a quarter, so that N finds the last layer; a place of 4 is as good as 0 in the next one.
-    float layer = floor(position * 0.24999996f);
-    float next = layer + 1.0f;
-    return float3(layer, next < layers ? next : 0.0f, position - 4.0f * layer);
+    float layer = floor(position * 0.24999996);
+    float next = layer + 1.0;
+    return float3(layer, next < layers ? next : 0.0, position - 4.0 * layer);
 }
 )~",
      {0x40000000000u, 0x0u, 0x0u, 0x0u}},
@@ -637,8 +637,8 @@ R"~(vec4 bumpshadow_slice_parts(float place) {
 }
 )~",
 R"~(float4 bumpshadow_slice_parts(float place) {
-    return max(float4(1.0f, 1.0f, 1.0f, 1.0f) - abs(float4(place, place - 1.0f, place - 2.0f, place - 3.0f)),
-               float4(0.0f, 0.0f, 0.0f, 0.0f));
+    return max(float4(1.0, 1.0, 1.0, 1.0) - abs(float4(place, place - 1.0, place - 2.0, place - 3.0)),
+               float4(0.0, 0.0, 0.0, 0.0));
 }
 )~",
      {0x80000000000u, 0x0u, 0x0u, 0x0u}},
@@ -655,10 +655,10 @@ R"~(float bumpshadow_grouped_horizon(vec4 values, float next_value, float place)
 )~",
 R"~(float bumpshadow_grouped_horizon(float4 values, float next_value, float place) {
     // Of the two neighbors one is even, the other odd.
-    float past = place - 2.0f;
-    float even = abs(past) < 1.0f ? values.z : past < 0.0f ? values.x : next_value;
-    float odd = past < 0.0f ? values.y : values.w;
-    return odd + abs(abs(past) - 1.0f) * (even - odd);
+    float past = place - 2.0;
+    float even = abs(past) < 1.0 ? values.z : past < 0.0 ? values.x : next_value;
+    float odd = past < 0.0 ? values.y : values.w;
+    return odd + abs(abs(past) - 1.0) * (even - odd);
 }
 )~",
      {0x100000000000u, 0x0u, 0x0u, 0x0u}},
@@ -673,8 +673,8 @@ R"~(vec2 bumpshadow_overlapping_layer(float position) {
 )~",
 R"~(float2 bumpshadow_overlapping_layer(float position) {
     // A little less than a third, so that N finds the last layer.
-    float layer = floor(position * 0.33333328f);
-    return float2(layer, position - 3.0f * layer);
+    float layer = floor(position * 0.33333328);
+    return float2(layer, position - 3.0 * layer);
 }
 )~",
      {0x200000000000u, 0x0u, 0x0u, 0x0u}},
@@ -689,10 +689,10 @@ R"~(float bumpshadow_overlapping_horizon(vec4 values, float place) {
 }
 )~",
 R"~(float bumpshadow_overlapping_horizon(float4 values, float place) {
-    float past = place - 2.0f;
-    float even = past < -1.0f ? values.x : values.z;
-    float odd = past < 0.0f ? values.y : values.w;
-    return odd + abs(abs(past) - 1.0f) * (even - odd);
+    float past = place - 2.0;
+    float even = past < -1.0 ? values.x : values.z;
+    float odd = past < 0.0 ? values.y : values.w;
+    return odd + abs(abs(past) - 1.0) * (even - odd);
 }
 )~",
      {0x400000000000u, 0x0u, 0x0u, 0x0u}},
@@ -714,8 +714,8 @@ R"~(vec3 bumpshadow_ssbump_sum(vec3 masks) {
 }
 )~",
 R"~(float3 bumpshadow_ssbump_sum(float3 masks) {
-    return float3(0.81649658f * masks.x - 0.40824829f * (masks.y + masks.z), 0.70710678f * (masks.y - masks.z),
-                0.57735027f * (masks.x + masks.y + masks.z));
+    return float3(0.81649658 * masks.x - 0.40824829 * (masks.y + masks.z), 0.70710678 * (masks.y - masks.z),
+                0.57735027 * (masks.x + masks.y + masks.z));
 }
 )~",
      {0x1000000000000u, 0x0u, 0x0u, 0x0u}},
@@ -731,10 +731,10 @@ R"~(vec3 bumpshadow_ssbump_project(vec3 v) {
 }
 )~",
 R"~(float3 bumpshadow_ssbump_project(float3 v) {
-    float up = 0.57735027f * v.z;
-    float side = 0.70710678f * v.y;
-    float back = up - 0.40824829f * v.x;
-    return float3(0.81649658f * v.x + up, back + side, back - side);
+    float up = 0.57735027 * v.z;
+    float side = 0.70710678 * v.y;
+    float back = up - 0.40824829 * v.x;
+    return float3(0.81649658 * v.x + up, back + side, back - side);
 }
 )~",
      {0x2000000000000u, 0x0u, 0x0u, 0x0u}},
@@ -750,7 +750,7 @@ R"~(vec3 bumpshadow_ssbump_normal(vec3 masks) {
 R"~(float3 bumpshadow_ssbump_normal(float3 masks) {
     float3 sum = bumpshadow_ssbump_sum(masks);
     float square = dot(sum, sum);
-    return square > 1e-8f ? sum * rsqrt(square) : float3(0.0f, 0.0f, 1.0f);
+    return square > 1e-8 ? sum * rsqrt(square) : float3(0.0, 0.0, 1.0);
 }
 )~",
      {0x5000000000000u, 0x0u, 0x0u, 0x0u}},
@@ -763,7 +763,7 @@ R"~(vec3 bumpshadow_ssbump_world_red(vec3 tangent, vec3 normal) {
 }
 )~",
 R"~(float3 bumpshadow_ssbump_world_red(float3 tangent, float3 normal) {
-    return 0.81649658f * tangent + 0.57735027f * normal;
+    return 0.81649658 * tangent + 0.57735027 * normal;
 }
 )~",
      {0x8000000000000u, 0x0u, 0x0u, 0x0u}},
@@ -774,7 +774,7 @@ R"~(vec3 bumpshadow_ssbump_world_green(vec3 tangent, vec3 bitangent, vec3 normal
 }
 )~",
 R"~(float3 bumpshadow_ssbump_world_green(float3 tangent, float3 bitangent, float3 normal) {
-    return 0.70710678f * bitangent - 0.40824829f * tangent + 0.57735027f * normal;
+    return 0.70710678 * bitangent - 0.40824829 * tangent + 0.57735027 * normal;
 }
 )~",
      {0x10000000000000u, 0x0u, 0x0u, 0x0u}},
@@ -785,7 +785,7 @@ R"~(vec3 bumpshadow_ssbump_world_blue(vec3 tangent, vec3 bitangent, vec3 normal)
 }
 )~",
 R"~(float3 bumpshadow_ssbump_world_blue(float3 tangent, float3 bitangent, float3 normal) {
-    return 0.57735027f * normal - 0.40824829f * tangent - 0.70710678f * bitangent;
+    return 0.57735027 * normal - 0.40824829 * tangent - 0.70710678 * bitangent;
 }
 )~",
      {0x20000000000000u, 0x0u, 0x0u, 0x0u}},
@@ -800,7 +800,7 @@ R"~(vec3 bumpshadow_ssbump_world_normal(vec3 masks, vec3 red, vec3 green, vec3 b
 )~",
 R"~(float3 bumpshadow_ssbump_world_normal(float3 masks, float3 red, float3 green, float3 blue) {
     float3 sum = masks.x * red + masks.y * green + masks.z * blue;
-    return sum * rsqrt(max(dot(sum, sum), 1e-20f));
+    return sum * rsqrt(max(dot(sum, sum), 1e-20));
 }
 )~",
      {0x40000000000000u, 0x0u, 0x0u, 0x0u}},
@@ -809,7 +809,7 @@ R"~(// Where a ray from the eye goes on to: `eye` points to the eye, `normal` is
 )~",
 R"~(vec3 bumpshadow_reflection(vec3 eye, vec3 normal) { return 2.0 * dot(normal, eye) * normal - eye; }
 )~",
-R"~(float3 bumpshadow_reflection(float3 eye, float3 normal) { return 2.0f * dot(normal, eye) * normal - eye; }
+R"~(float3 bumpshadow_reflection(float3 eye, float3 normal) { return 2.0 * dot(normal, eye) * normal - eye; }
 )~",
      {0x80000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_detail",
@@ -825,7 +825,7 @@ R"~(// A second SSBump map as detail, packed so that flat is 0.5. The product ma
 )~",
 R"~(vec3 bumpshadow_ssbump_detail_masks(vec3 masks, vec3 detail) { return 2.0 * masks * detail; }
 )~",
-R"~(float3 bumpshadow_ssbump_detail_masks(float3 masks, float3 detail) { return 2.0f * masks * detail; }
+R"~(float3 bumpshadow_ssbump_detail_masks(float3 masks, float3 detail) { return 2.0 * masks * detail; }
 )~",
      {0x200000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_lightmaps",
@@ -857,10 +857,10 @@ R"~(vec3 bumpshadow_normal_lightmaps(vec3 normal, vec3 red, vec3 green, vec3 blu
 }
 )~",
 R"~(float3 bumpshadow_normal_lightmaps(float3 normal, float3 red, float3 green, float3 blue) {
-    float3 dots = max(bumpshadow_ssbump_project(normal), 0.0f);
+    float3 dots = max(bumpshadow_ssbump_project(normal), 0.0);
     float3 squares = dots * dots;
-    float sum = max(squares.x + squares.y + squares.z, 1e-20f);
-    return (squares.x * red + squares.y * green + squares.z * blue) * (1.0f / sum);
+    float sum = max(squares.x + squares.y + squares.z, 1e-20);
+    return (squares.x * red + squares.y * green + squares.z * blue) * (1.0 / sum);
 }
 )~",
      {0x802000000000000u, 0x0u, 0x0u, 0x0u}},
@@ -871,7 +871,7 @@ R"~(// A dynamic light projected on the basis: three dots, clamped. light: towar
 )~",
 R"~(vec3 bumpshadow_ssbump_weights(vec3 light) { return max(bumpshadow_ssbump_project(light), 0.0); }
 )~",
-R"~(float3 bumpshadow_ssbump_weights(float3 light) { return max(bumpshadow_ssbump_project(light), 0.0f); }
+R"~(float3 bumpshadow_ssbump_weights(float3 light) { return max(bumpshadow_ssbump_project(light), 0.0); }
 )~",
      {0x1002000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_light",
@@ -904,9 +904,9 @@ R"~(vec3 bumpshadow_tangent_layers(float bearing, float phase, float slices) {
 )~",
 R"~(float3 bumpshadow_tangent_layers(float bearing, float phase, float slices) {
     float position = frac(bearing - phase) * slices;
-    float layer = min(floor(position), slices - 1.0f);
-    float next = layer + 1.0f;
-    return float3(layer, next < slices ? next : 0.0f, position - layer);
+    float layer = min(floor(position), slices - 1.0);
+    float next = layer + 1.0;
+    return float3(layer, next < slices ? next : 0.0, position - layer);
 }
 )~",
      {0x8000000000000000u, 0x0u, 0x0u, 0x0u}},
@@ -990,7 +990,7 @@ R"~(vec3 bumpshadow_vertex_direction(vec3 light, float most) {
 }
 )~",
 R"~(float3 bumpshadow_vertex_direction(float3 light, float most) {
-    float inverse = rsqrt(max(light.x * light.x + light.y * light.y, 1e-30f));
+    float inverse = rsqrt(max(light.x * light.x + light.y * light.y, 1e-30));
     return float3(light.x * inverse, light.y * inverse, bumpshadow_vertex_slope(light, most));
 }
 )~",
@@ -1005,8 +1005,8 @@ R"~(vec3 bumpshadow_unwrap_bearings(vec3 bearings) {
 }
 )~",
 R"~(float3 bumpshadow_unwrap_bearings(float3 bearings) {
-    return float3(bearings.x, bearings.y - floor(bearings.y - bearings.x + 0.5f),
-                bearings.z - floor(bearings.z - bearings.x + 0.5f));
+    return float3(bearings.x, bearings.y - floor(bearings.y - bearings.x + 0.5),
+                bearings.z - floor(bearings.z - bearings.x + 0.5));
 }
 )~",
      {0x0u, 0x80u, 0x0u, 0x0u}},
@@ -1016,7 +1016,7 @@ R"~(// True where the light stands above the triangle: its unwrapped bearings go
 )~",
 R"~(bool bumpshadow_bearings_go_round(vec3 unwrapped) { return abs(unwrapped.y - unwrapped.z) > 0.5; }
 )~",
-R"~(bool bumpshadow_bearings_go_round(float3 unwrapped) { return abs(unwrapped.y - unwrapped.z) > 0.5f; }
+R"~(bool bumpshadow_bearings_go_round(float3 unwrapped) { return abs(unwrapped.y - unwrapped.z) > 0.5; }
 )~",
      {0x0u, 0x100u, 0x0u, 0x0u}},
     {"bumpshadow_bearing_pair",
@@ -1029,7 +1029,7 @@ R"~(vec2 bumpshadow_bearing_pair(float bearing) {
 }
 )~",
 R"~(float2 bumpshadow_bearing_pair(float bearing) {
-    return float2(frac(bearing), frac(bearing + 0.5f) - 0.5f);
+    return float2(frac(bearing), frac(bearing + 0.5) - 0.5);
 }
 )~",
      {0x0u, 0x200u, 0x0u, 0x0u}},
