@@ -32,22 +32,6 @@ struct arguments {
     bool check = false;
 };
 
-std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
-
-// The maps that the project states its figures for, if the folder that has them is known.
-std::vector<height_source> usual_maps() {
-    const char* folder = std::getenv("BUMPSHADOW_HEIGHT_MAPS");
-    if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / "MANIFEST.tsv")) return {};
-    std::vector<height_source> all = read_manifest(folder), chosen;
-    for (const char* name : {"acg_Bricks059", "acg_RoofingTiles013A", "ogre_Rock20"}) {
-        const auto at = std::find_if(all.begin(), all.end(),
-                                     [&](const height_source& map) { return stem(map.path).rfind(name, 0) == 0; });
-        if (at == all.end()) throw failure(std::string("cannot find ") + name + " in " + folder + "/MANIFEST.tsv");
-        chosen.push_back(*at);
-    }
-    return chosen;
-}
-
 measurement measure_wall(const settings& how) {
     stone_wall wall = make_stone_wall();
     const height_samples samples{wall.extent, std::move(wall.heights)};
@@ -63,7 +47,7 @@ void work(const arguments& arguments) {
         maps.push_back(arguments.heights);
         maps.back().path = path;
     }
-    if (maps.empty()) maps = usual_maps();
+    if (maps.empty()) maps = known_maps({"acg_Bricks059", "acg_RoofingTiles013A", "ogre_Rock20"});
     std::printf("%s\n", build_text().c_str());
     std::printf(
         "%d bearings, one thread where nothing else is said; errors of the elevation in degrees\n"
@@ -77,7 +61,7 @@ void work(const arguments& arguments) {
     std::vector<check> checks;
     for (std::size_t i = 0; i < std::max(maps.size(), std::size_t(1)); ++i) {
         all.push_back(maps.empty() ? measure_wall(arguments.how)
-                                   : measure(stem(maps[i].path), read_heights(maps[i]), maps[i],
+                                   : measure(name_of(maps[i]), read_heights(maps[i]), maps[i],
                                              maps[i].height_scale.value_or(1.0), arguments.how));
         const measurement& m = all.back();
         std::printf("\n%s\n%d x %d texels, errors over %zu samples, median of %d repeats\n", table_of(m).c_str(),

@@ -59,4 +59,26 @@ std::vector<height_source> read_manifest(const std::filesystem::path& folder) {
     return maps;
 }
 
+std::filesystem::path known_folder() {
+    const char* const folder = std::getenv("BUMPSHADOW_HEIGHT_MAPS");
+    if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / "MANIFEST.tsv")) return {};
+    return folder;
+}
+
+std::string name_of(const height_source& map) { return std::filesystem::path(map.path).stem().string(); }
+
+std::vector<height_source> known_maps(std::initializer_list<const char*> names) {
+    const std::filesystem::path folder = known_folder();
+    if (folder.empty()) return {};
+    const std::vector<height_source> all = read_manifest(folder);
+    std::vector<height_source> chosen;
+    for (const char* name : names) {
+        const auto at = std::find_if(all.begin(), all.end(),
+                                     [&](const height_source& map) { return name_of(map).starts_with(name); });
+        if (at == all.end()) throw failure(std::string("no ") + name + " in " + (folder / "MANIFEST.tsv").string());
+        chosen.push_back(*at);
+    }
+    return chosen;
+}
+
 }  // namespace examples

@@ -45,27 +45,20 @@ struct arguments {
     bool check = false;
 };
 
-std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
-
 named_map read(const height_source& source) {
-    return {stem(source.path), source, read_heights(source), source.height_scale.value_or(1.0)};
+    return {name_of(source), source, read_heights(source), source.height_scale.value_or(1.0)};
 }
 
 // The maps that the project states its figures for, if the folder that has them is known.
 std::vector<named_map> usual_maps() {
-    const char* folder = std::getenv("BUMPSHADOW_HEIGHT_MAPS");
-    if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / "MANIFEST.tsv")) return {};
-    const std::vector<height_source> all = read_manifest(folder);
-    std::vector<named_map> chosen;
+    std::vector<named_map> maps;
     for (const char* name :
-         {"acg_Bricks059", "acg_RoofingTiles013A", "dx_stones", "dx_rocks", "pk01_floor01", "ogre_Rock20"}) {
-        const auto at = std::find_if(all.begin(), all.end(),
-                                     [&](const height_source& map) { return stem(map.path).rfind(name, 0) == 0; });
-        if (at == all.end()) throw failure(std::string("cannot find ") + name + " in " + folder + "/MANIFEST.tsv");
-        chosen.push_back(read(*at));
-        chosen.back().name = name;
-    }
-    return chosen;
+         {"acg_Bricks059", "acg_RoofingTiles013A", "dx_stones", "dx_rocks", "pk01_floor01", "ogre_Rock20"})
+        for (const height_source& source : known_maps({name})) {
+            maps.push_back(read(source));
+            maps.back().name = name;
+        }
+    return maps;
 }
 
 named_map made_wall() {

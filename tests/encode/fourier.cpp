@@ -16,7 +16,7 @@
 #include <bumpshadow/quantize.hpp>
 #include <bumpshadow/shader/shader.hpp>
 
-#include "support/shapes.hpp"
+#include "support/textures.hpp"
 
 using namespace bumpshadow;
 
@@ -24,51 +24,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-struct horizons {
-    glm::ivec2 extent;
-    int bearings;
-    std::vector<float> slopes;
-
-    horizons(glm::ivec2 size, int count) : extent(size), bearings(count), slopes(required_size(size, count)) {}
-    [[nodiscard]] float& at(int bearing, int x, int y) {
-        return slopes[(std::size_t(bearing) * std::size_t(extent.y) + std::size_t(y)) * std::size_t(extent.x) +
-                      std::size_t(x)];
-    }
-    [[nodiscard]] horizon_map view() { return {slopes, extent, bearings}; }
-};
-
-struct textures {
-    std::vector<std::vector<std::byte>> bytes;
-    std::vector<texture> views;
-
-    textures(const fourier& encoding, glm::ivec2 extent, int mips = 1) {
-        for (int i = 0; i < texture_count(encoding); ++i) {
-            const texture_layout layout = layout_of(encoding, extent, mips, i);
-            bytes.push_back(std::vector<std::byte>(layout.required_size(), std::byte(77)));
-            views.push_back({bytes.back(), layout});
-        }
-    }
-    [[nodiscard]] int byte(std::size_t of, std::size_t at) const { return std::to_integer<int>(bytes[of][at]); }
-    // Texel of a texture as a shader sees it.
-    [[nodiscard]] glm::vec4 texel(std::size_t of, int x, int y) const {
-        const texture_layout& l = views[of].layout;
-        const std::size_t channels = std::size_t(traits_of(l.format).channels);
-        const bool wide = l.format == texel_format::r16 || l.format == texel_format::rgba16;
-        glm::vec4 v(0.0f, 0.0f, 0.0f, 1.0f);
-        for (std::size_t c = 0; c < channels; ++c) {
-            const std::size_t i = (std::size_t(y) * std::size_t(l.extent.x) + std::size_t(x)) * channels + c;
-            v[int(c)] = wide ? from_unorm16(std::uint16_t(byte(of, 2 * i) | byte(of, 2 * i + 1) << 8))
-                             : from_unorm8(std::uint8_t(byte(of, i)));
-        }
-        return v;
-    }
-    [[nodiscard]] bool untouched() const {
-        for (const auto& b : bytes)
-            if (!std::all_of(b.begin(), b.end(), [](std::byte v) { return v == std::byte(77); })) return false;
-        return true;
-    }
-};
 
 // The horizon that the shader decodes.
 float decoded(const fourier& encoding, const textures& t, int x, int y, glm::vec2 light) {

@@ -13,8 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -25,7 +23,7 @@
 #include "support/horizons.hpp"
 
 #if BUMPSHADOW_TESTS_READ_IMAGES
-#include "common/manifest.hpp"
+#include "support/real_maps.hpp"
 #endif
 
 using namespace bumpshadow;
@@ -331,19 +329,9 @@ TEST_CASE("mips of every encoding keep the mean shadow factor: real maps") {
 
 TEST_SUITE("slow") {
     TEST_CASE("mips of every encoding keep the mean shadow factor: real maps") {
-        const char* folder = std::getenv("BUMPSHADOW_HEIGHT_MAPS");
-        if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / "MANIFEST.tsv")) {
-            MESSAGE("skipped: BUMPSHADOW_HEIGHT_MAPS does not name a folder of height maps");
-            return;
-        }
-        for (const examples::height_source& source : examples::read_manifest(folder)) {
-            const std::string name = std::filesystem::path(source.path).stem().string();
-            const auto samples = examples::read_heights(source);
-            examples::with_height_map(samples, source, *source.height_scale,
-                                      [&]<class Sample>(const height_map<Sample>& map) {
-                                          if (map.extent.x <= 256) check_all(baked(map), name);
-                                      });
-        }
+        for_real_maps({}, [](const std::string& name, const auto& map) {
+            if (map.extent.x <= 256) check_all(baked(map), name);
+        });
     }
 }
 

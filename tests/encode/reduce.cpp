@@ -9,9 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -20,7 +18,7 @@
 #include "support/horizons.hpp"
 
 #if BUMPSHADOW_TESTS_READ_IMAGES
-#include "common/manifest.hpp"
+#include "support/real_maps.hpp"
 #endif
 
 using namespace bumpshadow;
@@ -290,19 +288,9 @@ TEST_CASE("mips keep the mean shadow factor: real maps") {
 #else
 
 TEST_CASE("mips keep the mean shadow factor: real maps") {
-    const char* folder = std::getenv("BUMPSHADOW_HEIGHT_MAPS");
-    if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / "MANIFEST.tsv")) {
-        MESSAGE("skipped: BUMPSHADOW_HEIGHT_MAPS does not name a folder of height maps");
-        return;
-    }
-    for (const examples::height_source& source : examples::read_manifest(folder)) {
-        const std::string name = std::filesystem::path(source.path).stem().string();
-        const auto samples = examples::read_heights(source);
-        examples::with_height_map(samples, source, *source.height_scale,
-                                  [&]<class Sample>(const height_map<Sample>& map) {
-                                      if (map.extent.x <= 512) check_mips(map, name);
-                                  });
-    }
+    for_real_maps({}, [](const std::string& name, const auto& map) {
+        if (map.extent.x <= 512) check_mips(map, name);
+    });
 }
 
 #endif

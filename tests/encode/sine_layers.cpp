@@ -11,45 +11,13 @@
 
 #include <doctest/doctest.h>
 
-#include "support/shapes.hpp"
+#include "support/textures.hpp"
 
 using namespace bumpshadow;
 
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-// Slopes of every direction and texel, tightly packed.
-struct horizons {
-    glm::ivec2 extent;
-    int bearings;
-    std::vector<float> slopes;
-
-    horizons(glm::ivec2 size, int count) : extent(size), bearings(count), slopes(required_size(size, count)) {}
-    [[nodiscard]] float& at(int bearing, int x, int y) {
-        return slopes[(std::size_t(bearing) * std::size_t(extent.y) + std::size_t(y)) * std::size_t(extent.x) +
-                      std::size_t(x)];
-    }
-    [[nodiscard]] horizon_map view() { return {slopes, extent, bearings}; }
-};
-
-// The textures of an encoding, filled with 77.
-struct textures {
-    std::vector<std::vector<std::byte>> bytes;
-    std::vector<texture> views;
-
-    textures(const sine_layers& encoding, glm::ivec2 extent, int mips = 1) {
-        const texture_layout layout = layout_of(encoding, extent, mips);
-        bytes.assign(std::size_t(texture_count(encoding)), {layout.required_size(), std::byte(77)});
-        for (auto& b : bytes) views.push_back({b, layout});
-    }
-    [[nodiscard]] int byte(std::size_t at, std::size_t of = 0) const { return std::to_integer<int>(bytes[of][at]); }
-    [[nodiscard]] bool untouched() const {
-        for (const auto& b : bytes)
-            if (!std::all_of(b.begin(), b.end(), [](std::byte v) { return v == std::byte(77); })) return false;
-        return true;
-    }
-};
 
 pack_options with(slice_fit fit) {
     pack_options options;
@@ -95,8 +63,8 @@ TEST_CASE("sine layers: golden bytes, as an array and as two textures") {
         textures out(encoding, h.extent);
         REQUIRE(bool(pack_sine_layers(h.view(), directions, encoding, with(slice_fit::point), out.views)));
         for (std::size_t i = 0; i < 8; ++i) {
-            CHECK(out.byte(i) == golden[0][i]);
-            CHECK((separate ? out.byte(i, 1) : out.byte(8 + i)) == golden[1][i]);
+            CHECK(out.byte(0, i) == golden[0][i]);
+            CHECK((separate ? out.byte(1, i) : out.byte(0, 8 + i)) == golden[1][i]);
         }
     }
     CHECK(layout_of(sine_layers{}, {3, 5}).bytes_per_texel({3, 5}) == 8.0);
@@ -114,7 +82,7 @@ TEST_CASE("sine layers: slopes in place of sines, clamped and counted") {
     options.report = &report;
     REQUIRE(bool(pack_sine_layers(h.view(), shapes::directions(8), encoding, options, out.views)));
     const int golden[8] = {64, 128, 255, 255, 255, 0, 0, 191};
-    for (std::size_t i = 0; i < 8; ++i) CHECK(out.byte(i) == golden[i]);
+    for (std::size_t i = 0; i < 8; ++i) CHECK(out.byte(0, i) == golden[i]);
     CHECK(report.clamped == 2);
     CHECK(report.steepest == 400.0f);
 }
@@ -133,10 +101,10 @@ TEST_CASE("sine layers: the average of five of 32") {
             for (int i = 0; i < 8; ++i) {
                 double average = 0.0;
                 for (int d = -2; d <= 2; ++d) average += sine(double(h.at((4 * i + d + 32) % 32, x, y))) / 5.0;
-                const int byte = out.byte(std::size_t((((i / 4) * 3 + y) * 150 + x) * 4 + i % 4));
+                const int byte = out.byte(0, std::size_t((((i / 4) * 3 + y) * 150 + x) * 4 + i % 4));
                 CHECK(std::abs(byte - 255.0 * average) <= 0.5 + 1e-3);
             }
-    CHECK(out.byte(4) == 255);
+    CHECK(out.byte(0, 4) == 255);
 
     // Any order, any length.
     std::vector<glm::dvec2> turned(directions.rbegin(), directions.rend());
@@ -179,7 +147,7 @@ TEST_CASE("sine layers: least squares against the normal equations of one texel"
                         for (int c = 8; c >= i; --c) a[r][c] -= a[r][i] / a[i][i] * a[i][c];
             for (int i = 0; i < 8; ++i) {
                 const double wanted = std::clamp(a[i][8] / a[i][i], 0.0, 1.0);
-                const int byte = out.byte(std::size_t((((i / 4) * 2 + y) * 7 + x) * 4 + i % 4));
+                const int byte = out.byte(0, std::size_t((((i / 4) * 2 + y) * 7 + x) * 4 + i % 4));
                 CHECK(std::abs(byte - 255.0 * wanted) <= 0.5 + 2e-3);
             }
         }
@@ -252,7 +220,7 @@ TEST_CASE("sine layers: bad input leaves the textures alone") {
 TEST_CASE("sine layers: scratch of the stated size is enough") {
     horizons h = noisy({33, 40}, 32, 18);
     const auto directions = shapes::directions(32);
-    textures one({}, h.extent), two({}, h.extent);
+    textures one(sine_layers{}, h.extent), two(sine_layers{}, h.extent);
     std::vector<std::byte> scratch(slice_scratch_size(h.extent, 32, 32));
     pack_options options;
     options.scratch = scratch;

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -22,7 +20,7 @@
 #include "support/shapes.hpp"
 
 #if BUMPSHADOW_TESTS_READ_IMAGES
-#include "common/manifest.hpp"
+#include "support/real_maps.hpp"
 
 #include <bumpshadow/encode/stb_blocks.hpp>
 #endif
@@ -338,67 +336,47 @@ TEST_CASE("on a slope the masks count its tilt twice, and the mean unblocked dir
 #if BUMPSHADOW_TESTS_READ_IMAGES
 
 TEST_CASE("three lightmaps and small formats on real height maps") {
-    const char* folder = std::getenv("BUMPSHADOW_HEIGHT_MAPS");
-    if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / "MANIFEST.tsv")) {
-        MESSAGE("skipped: BUMPSHADOW_HEIGHT_MAPS does not name a folder of height maps");
-        return;
-    }
-    for (const examples::height_source& source : examples::read_manifest(folder)) {
-        const std::string name = std::filesystem::path(source.path).stem().string();
-        if (name != "dx_stones_256" && name != "pk01_floor01_512" && name != "acg_Bricks059_1024") continue;
-        const auto samples = examples::read_heights(source);
-        examples::with_height_map(samples, source, *source.height_scale,
-                                  [&]<class Sample>(const height_map<Sample>& map) {
-                                      const patch p(map, {{96, 64}, {48, 48}});
-                                      const double usual = compare(name, p, true), projected = compare(name, p, false);
-                                      CHECK(projected < 0.8 * usual);
-                                      compress(name, p);
-                                  });
-    }
+    for_real_maps({"dx_stones_256", "pk01_floor01_512", "acg_Bricks059_1024"},
+                  [](const std::string& name, const auto& map) {
+                      const patch p(map, {{96, 64}, {48, 48}});
+                      const double usual = compare(name, p, true), projected = compare(name, p, false);
+                      CHECK(projected < 0.8 * usual);
+                      compress(name, p);
+                  });
 }
 
 TEST_CASE("recovered normals and mean unblocked directions of real height maps") {
-    const char* folder = std::getenv("BUMPSHADOW_HEIGHT_MAPS");
-    if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / "MANIFEST.tsv")) {
-        MESSAGE("skipped: BUMPSHADOW_HEIGHT_MAPS does not name a folder of height maps");
-        return;
-    }
     const float limit = float(std::cos(35.0 * pi / 180.0));
-    for (const examples::height_source& source : examples::read_manifest(folder)) {
-        const std::string name = std::filesystem::path(source.path).stem().string();
-        const auto samples = examples::read_heights(source);
-        examples::with_height_map(
-            samples, source, *source.height_scale, [&]<class Sample>(const height_map<Sample>& map) {
-                const std::size_t texels = std::size_t(map.extent.x) * std::size_t(map.extent.y);
-                std::vector<float> values(3 * texels), back(3 * texels);
-                const normal_map n{.values = values, .extent = map.extent}, r{.values = back, .extent = map.extent};
-                require(bake_normals(map, n, {}, threads()));
-                const ssbump encoding{.occlusion = mask_occlusion::none};
-                std::vector<std::byte> bytes(4 * texels);
-                const texture t{bytes, layout_of(encoding, map.extent)};
-                require(pack_ssbump(n, encoding, t, threads()));
-                require(recover_normals(t, encoding, r, 0, threads()));
-                double sum[2] = {};
-                std::size_t count[2] = {};
-                for (int y = 0; y < map.extent.y; ++y)
-                    for (int x = 0; x < map.extent.x; ++x) {
-                        const bool steep = n.at(x, y).z < limit;
-                        sum[steep] += degrees_between(n.at(x, y), r.at(x, y));
-                        ++count[steep];
-                    }
-                MESSAGE(name, ": recovered within ", sum[0] / double(count[0]), " degrees; ",
-                        100.0 * double(count[1]) / double(texels), " % tilt by more than 35 degrees, there ",
-                        count[1] == 0 ? 0.0 : sum[1] / double(count[1]));
-                CHECK(sum[0] / double(count[0]) < 0.2);
+    for_real_maps({}, [&](const std::string& name, const auto& map) {
+        const std::size_t texels = std::size_t(map.extent.x) * std::size_t(map.extent.y);
+        std::vector<float> values(3 * texels), back(3 * texels);
+        const normal_map n{.values = values, .extent = map.extent}, r{.values = back, .extent = map.extent};
+        require(bake_normals(map, n, {}, threads()));
+        const ssbump encoding{.occlusion = mask_occlusion::none};
+        std::vector<std::byte> bytes(4 * texels);
+        const texture t{bytes, layout_of(encoding, map.extent)};
+        require(pack_ssbump(n, encoding, t, threads()));
+        require(recover_normals(t, encoding, r, 0, threads()));
+        double sum[2] = {};
+        std::size_t count[2] = {};
+        for (int y = 0; y < map.extent.y; ++y)
+            for (int x = 0; x < map.extent.x; ++x) {
+                const bool steep = n.at(x, y).z < limit;
+                sum[steep] += degrees_between(n.at(x, y), r.at(x, y));
+                ++count[steep];
+            }
+        MESSAGE(name, ": recovered within ", sum[0] / double(count[0]), " degrees; ",
+                100.0 * double(count[1]) / double(texels), " % tilt by more than 35 degrees, there ",
+                count[1] == 0 ? 0.0 : sum[1] / double(count[1]));
+        CHECK(sum[0] / double(count[0]) < 0.2);
 
-                const bent_error e = to_bent(patch(map, {map.extent / 2 - glm::ivec2(16), glm::ivec2(32)}));
-                MESSAGE(name, ": to the mean unblocked direction, recovered ", e.recovered, ", the surface's ",
-                        e.surface, "; recovered from masks of a flat surface ", e.level, ", straight up ", e.up);
-                // A blocked direction w tilts B by w.xy / pi, and what is recovered by at least 0.24 of that: to first
-                // order what is left is up to 0.76 of it.
-                CHECK(e.level < 0.76 * e.up);
-            });
-    }
+        const bent_error e = to_bent(patch(map, {map.extent / 2 - glm::ivec2(16), glm::ivec2(32)}));
+        MESSAGE(name, ": to the mean unblocked direction, recovered ", e.recovered, ", the surface's ", e.surface,
+                "; recovered from masks of a flat surface ", e.level, ", straight up ", e.up);
+        // A blocked direction w tilts B by w.xy / pi, and what is recovered by at least 0.24 of that: to first
+        // order what is left is up to 0.76 of it.
+        CHECK(e.level < 0.76 * e.up);
+    });
 }
 
 #else

@@ -16,14 +16,12 @@ TEST_CASE("every method on real height maps") { MESSAGE("skipped: built without 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <numbers>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "common/manifest.hpp"
+#include "support/real_maps.hpp"
 #include "support/shapes.hpp"
 
 using namespace bumpshadow;
@@ -168,43 +166,32 @@ private:
 }  // namespace
 
 TEST_CASE("every method on real height maps") {
-    const char* folder = std::getenv("BUMPSHADOW_HEIGHT_MAPS");
-    if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / "MANIFEST.tsv")) {
-        MESSAGE("skipped: BUMPSHADOW_HEIGHT_MAPS does not name a folder of height maps");
-        return;
-    }
     if (bearings < 16) MESSAGE("reduced under sanitizers: ", bearings, " bearings, ", texels, " texels a map");
-    for (const examples::height_source& source : examples::read_manifest(folder)) {
-        const std::string name = std::filesystem::path(source.path).stem().string();
+    for_real_maps({}, [](const std::string& name, const auto& map) {
         const bounds* const allowed =
             std::find_if(std::begin(table), std::end(table), [&](const bounds& b) { return name == b.map; });
         if (allowed == std::end(table)) {
             MESSAGE("no bounds are stated for ", name);
-            continue;
+            return;
         }
-        const auto samples = examples::read_heights(source);
-        examples::with_height_map(
-            samples, source, *source.height_scale, [&]<class Sample>(const height_map<Sample>& map) {
-                trial<Sample> t(map, name);
-                bake_options fine;
-                fine.steps = 48;
-                const threads all;
-                t.estimate("cascade", allowed->cascade, [&](const auto& directions, const horizon_map& out) {
-                    return bake_cascade(map, directions, out, {}, all);
-                });
-                t.estimate("fine cascade", allowed->fine, [&](const auto& directions, const horizon_map& out) {
-                    return bake_cascade(map, directions, out, fine, all);
-                });
-                t.estimate("sweep", allowed->sweep, [&](const auto& directions, const horizon_map& out) {
-                    return bake_sweep(map, directions, out, {}, all);
-                });
-                t.estimate("classic sweep", allowed->sweep_classic,
-                           [&](const auto& directions, const horizon_map& out) {
-                               return bake_sweep_classic(map, directions, out, {}, all);
-                           });
-                t.average(allowed->neighborhood);
-            });
-    }
+        trial t(map, name);
+        bake_options fine;
+        fine.steps = 48;
+        const threads all;
+        t.estimate("cascade", allowed->cascade, [&](const auto& directions, const horizon_map& out) {
+            return bake_cascade(map, directions, out, {}, all);
+        });
+        t.estimate("fine cascade", allowed->fine, [&](const auto& directions, const horizon_map& out) {
+            return bake_cascade(map, directions, out, fine, all);
+        });
+        t.estimate("sweep", allowed->sweep, [&](const auto& directions, const horizon_map& out) {
+            return bake_sweep(map, directions, out, {}, all);
+        });
+        t.estimate("classic sweep", allowed->sweep_classic, [&](const auto& directions, const horizon_map& out) {
+            return bake_sweep_classic(map, directions, out, {}, all);
+        });
+        t.average(allowed->neighborhood);
+    });
 }
 
 #endif
