@@ -16,6 +16,7 @@
 #include <bumpshadow/normal_map.hpp>
 
 #include "common/arguments.hpp"
+#include "common/choices.hpp"
 #include "common/progress.hpp"
 
 namespace examples {
@@ -309,22 +310,8 @@ void refuse_what_does_not_fit(const encoding_settings& s) {
 // JSON has no infinity: none stands for it.
 std::string number(double value) { return std::isfinite(value) ? text("%.9g", value) : "null"; }
 
-const char* name_of(bs::quantity stored) {
-    return stored == bs::quantity::slope ? "slope" : stored == bs::quantity::sine ? "sine" : "angle";
-}
-
-const std::vector<std::pair<std::string, bs::bearing_function>> function_names{
-    {"exact", bs::bearing_function::exact},
-    {"quintic", bs::bearing_function::quintic},
-    {"cubic", bs::bearing_function::cubic},
-    {"octant", bs::bearing_function::octant},
-    {"diamond", bs::bearing_function::diamond}};
-
-const char* name_of(bs::bearing_function function) {
-    for (const auto& [name, value] : function_names)
-        if (value == function) return name.c_str();
-    return "";
-}
+const char* name_of(bs::quantity stored) { return word_of(quantity_names, stored); }
+const char* name_of(bs::bearing_function function) { return word_of(bearing_function_names, function); }
 
 const char* name_of(bs::texel_format format) {
     constexpr const char* names[] = {"r8",      "rg8",  "rgba8",   "r16",    "rgba16", "r16f",
@@ -390,14 +377,13 @@ void add_encoding_options(CLI::App& app, encoding_settings& settings, bool extra
                               "slices: their own horizons, or fitted to four times as many (32 at least), for the "
                               "least squares of what is stored or the least error of the elevation")
         ->type_name("FIT");
-    add_choice(app, "--bearing-function", settings.function, function_names, "how the shader measures bearings")
+    add_choice(app, "--bearing-function", settings.function, bearing_function_names, "how the shader measures bearings")
         ->type_name("FUNCTION");
     app.add_option_function<std::string>(
            "--stored",
            [&settings](const std::string& word) {
-               settings.stored = word == "slope"  ? bs::quantity::slope
-                                 : word == "sine" ? bs::quantity::sine
-                                                  : bs::quantity::angle;
+               for (const auto& [name, stored] : quantity_names)
+                   if (name == word) settings.stored = stored;
            },
            "quantity that is stored: slope, sine, angle (default: the encoding's own)")
         ->check(CLI::IsMember({"slope", "sine", "angle"}))

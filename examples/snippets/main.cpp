@@ -10,6 +10,7 @@
 #include <bumpshadow/shader/snippets.hpp>
 
 #include "common/arguments.hpp"
+#include "common/choices.hpp"
 #include "common/file.hpp"
 
 namespace {
@@ -53,8 +54,6 @@ int main(int argc, char** argv) try {
         "preprocessor: for engines that have none.",
         "snippets");
     arguments arguments;
-    using bumpshadow::bearing_function;
-    using bumpshadow::quantity;
     using text::decoder;
     using text::edge;
     add_choice<decoder>(app, "--decoder", arguments.chosen.decode,
@@ -77,17 +76,9 @@ int main(int argc, char** argv) try {
     add_choice<text::dialect>(app, "--dialect", arguments.language,
                               {{"glsl", text::dialect::glsl}, {"hlsl", text::dialect::hlsl}}, "language")
         ->type_name("DIALECT");
-    add_choice<bearing_function>(app, "--bearing-function", arguments.chosen.bearing,
-                                 {{"exact", bearing_function::exact},
-                                  {"quintic", bearing_function::quintic},
-                                  {"cubic", bearing_function::cubic},
-                                  {"octant", bearing_function::octant},
-                                  {"diamond", bearing_function::diamond}},
-                                 "how bearings are measured")
+    add_choice(app, "--bearing-function", arguments.chosen.bearing, bearing_function_names, "how bearings are measured")
         ->type_name("FUNCTION");
-    add_choice<quantity>(app, "--stored", arguments.chosen.stored,
-                         {{"slope", quantity::slope}, {"sine", quantity::sine}, {"angle", quantity::angle}},
-                         "quantity that the texture stores")
+    add_choice(app, "--stored", arguments.chosen.stored, quantity_names, "quantity that the texture stores")
         ->type_name("QUANTITY");
     add_choice<edge>(app, "--edge", arguments.chosen.shadow,
                      {{"hard", edge::hard},
