@@ -43,7 +43,8 @@ has_vulkan() {
     return 1
 }
 
-tools='' headers='' others=''  # Debian's names of the packages that are missing
+# Debian's names of the packages that are missing; what the others are for is skipped without them.
+tools='' headers='' others=''
 look_for_tool() { has_tool "$1" || tools="$tools $2"; }
 look_for_header() { has_header "$1" || headers="$headers $2"; }
 
@@ -55,12 +56,12 @@ look_for_shader_tools() {
     has_renderer || others="$others libgl1-mesa-dri"
     # The compiler that shader_cost asks, and what that is linked with.
     has_vulkan || others="$others mesa-vulkan-drivers"
-    look_for_header vulkan/vulkan.h libvulkan-dev
-    look_for_header EGL/egl.h libegl-dev
-    look_for_header GL/glcorearb.h libgl-dev
+    has_header vulkan/vulkan.h || others="$others libvulkan-dev"
+    has_header EGL/egl.h || others="$others libegl-dev"
+    has_header GL/glcorearb.h || others="$others libgl-dev"
 }
 
-# Installs what the arguments (clang, xsimd, shaders) and every build need and do not have.
+# Installs what the arguments (clang, xsimd, shaders, measure) and every build need and do not have.
 set_up() {
     tools='' headers='' others=''
     has_tool "${CXX:-c++}" || look_for_tool g++ g++
@@ -75,15 +76,18 @@ set_up() {
             clang) look_for_tool clang++ clang ;;
             xsimd) look_for_header xsimd/xsimd.hpp libxsimd-dev ;;
             shaders) look_for_shader_tools ;;
+            measure) has_tool astcenc || others="$others astcenc" ;;
         esac
     done
 
     missing="$tools$headers$others"
+    # shellcheck disable=SC2086 # lists of words
     if [ -n "$missing" ]; then
         if ! has_tool apt-get; then
             say "no apt-get here; not found in the usual places (names as on Debian):$missing"
         elif [ "$(id -u)" -eq 0 ] || has_tool sudo; then
-            install_packages
+            [ -z "$tools$headers" ] || install_packages $tools $headers
+            [ -z "$others" ] || install_packages $others || say "going on without:$others"
         else
             say "neither root nor sudo here; please install:$missing"
         fi
@@ -102,11 +106,10 @@ set_up() {
 
 as_root() { if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi; }
 
-# shellcheck disable=SC2086 # a list of words
 install_packages() {
-    say "installing with apt-get:$missing"
-    as_root apt-get -qq update
-    as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends $missing </dev/null
+    say "installing with apt-get: $*"
+    as_root apt-get -qq update &&
+        as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends "$@" </dev/null
 }
 
 # ---- Builds ----
@@ -182,7 +185,7 @@ case $command in
         note_maps
         ;;
     full)
-        set_up clang xsimd shaders
+        set_up clang xsimd shaders measure
         workflow test
         (cd "$root" && ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex slow)
         workflow clang
@@ -195,6 +198,13 @@ case $command in
         variant bare -DBUMPSHADOW_BUILD_EXAMPLES=OFF "-DCMAKE_CXX_FLAGS=$bare"
         tidy
         "$root/build/release/examples/benchmark"
+        "$root/build/release/examples/encodings"
+        # Built where Vulkan's loader and glslangValidator are.
+        if [ -x "$root/build/release/examples/shader_cost" ]; then
+            "$root/build/release/examples/shader_cost" --check
+        else
+            say "shader_cost skipped: not built"
+        fi
         note_maps
         ;;
     *)
