@@ -6,7 +6,8 @@
 //      precision highp float; precision highp sampler2D; precision highp sampler3D; precision highp sampler2DArray;
 //      precision highp samplerCube;
 //   2. Set the switches that follow, or define them before this text.
-//   3. Bind a texture that `bake --encoding` or the library packed: repeat in all directions, linear filter.
+//   3. Bind a texture that `bake --encoding` or the library packed: repeat in all directions, linear filter. Mips:
+//      of arrays and flat textures alone, since the third coordinate of a volume jumps where bearings wrap.
 //   4. Call what your encoding needs (below) with the light in tangent space: +x along u, +y along v, +z outwards.
 //   5. Multiply the light's color by the factor. Ambient light stays as it is.
 //

@@ -4,7 +4,8 @@
 // How to paste it
 //   1. Put this text above your pixel shader, or include it there.
 //   2. Set the switches that follow, or define them before this text.
-//   3. Bind a texture that `bake --encoding` or the library packed: repeat in all directions, linear filter.
+//   3. Bind a texture that `bake --encoding` or the library packed: repeat in all directions, linear filter. Mips:
+//      of arrays and flat textures alone, since the third coordinate of a volume jumps where bearings wrap.
 //   4. Call what your encoding needs (below) with the light in tangent space: +x along u, +y along v, +z outwards.
 //   5. Multiply the light's color by the factor. Ambient light stays as it is.
 //

@@ -58,11 +58,11 @@
 precision highp float;
 precision highp int;
 layout(local_size_x = 16, local_size_y = 4) in;
-layout(std430, binding = 0) readonly buffer BumpshadowBakeHeights { float bumpshadow_bake_heights[]; };
-layout(std430, binding = 1) readonly buffer BumpshadowBakeTables { ivec4 bumpshadow_bake_tables[]; };
-layout(std430, binding = 2) buffer BumpshadowBakeScratch { float bumpshadow_bake_scratch[]; };
-layout(std430, binding = 3) writeonly buffer BumpshadowBakeSlopes { float bumpshadow_bake_slopes[]; };
-layout(std140, binding = 4) uniform BumpshadowBakeConstants { ivec4 bumpshadow_bake_dispatch; };
+layout(std430, binding = 0) readonly buffer bumpshadow_bake_heights_block { float bumpshadow_bake_heights[]; };
+layout(std430, binding = 1) readonly buffer bumpshadow_bake_tables_block { ivec4 bumpshadow_bake_tables[]; };
+layout(std430, binding = 2) buffer bumpshadow_bake_scratch_block { float bumpshadow_bake_scratch[]; };
+layout(std430, binding = 3) writeonly buffer bumpshadow_bake_slopes_block { float bumpshadow_bake_slopes[]; };
+layout(std140, binding = 4) uniform bumpshadow_bake_constants_block { ivec4 bumpshadow_bake_dispatch; };
 
 // Horizons by the cascade (bumpshadow/horizon/cascade.hpp), an invocation a texel or a cell of a level. All that does
 // not depend on the heights is in bumpshadow_bake_tables, which bumpshadow::plan_bake (shader/bake_plan.hpp) fills: a

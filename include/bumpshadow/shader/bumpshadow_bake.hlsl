@@ -56,7 +56,7 @@ StructuredBuffer<float> bumpshadow_bake_heights : register(t0);
 StructuredBuffer<int4> bumpshadow_bake_tables : register(t1);
 RWStructuredBuffer<float> bumpshadow_bake_scratch : register(u2);
 RWStructuredBuffer<float> bumpshadow_bake_slopes : register(u3);
-cbuffer BumpshadowBakeConstants : register(b4) { int4 bumpshadow_bake_dispatch; };
+cbuffer bumpshadow_bake_constants_block : register(b4) { int4 bumpshadow_bake_dispatch; };
 
 // Horizons by the cascade (bumpshadow/horizon/cascade.hpp), an invocation a texel or a cell of a level. All that does
 // not depend on the heights is in bumpshadow_bake_tables, which bumpshadow::plan_bake (shader/bake_plan.hpp) fills: a
