@@ -44,8 +44,8 @@ struct rectangle {
 // of the picture, used with a y-up normal map, needs one flip: mirror the rows of the heights or negate the normal's y.
 //
 // Height of a texel = sample * height_scale - datum, in the unit of texel_size. The surface between texel centers is
-// bilinear. Any constant may be the datum, since only differences of heights matter; the methods work in float, so
-// double samples that lie far from zero should name a datum near their heights.
+// bilinear. Horizons and normals depend on differences of heights alone, which are taken before anything is rounded to
+// float; the datum matters to encode/emboss.hpp, which stores heights, and to the GPU kernel, which reads floats.
 template <height_sample Sample>
 struct height_map {
     const Sample* samples = nullptr;
@@ -98,6 +98,23 @@ template <height_sample Sample>
     if constexpr (std::is_floating_point_v<Sample>)
         if (*heights.no_data != *heights.no_data) return sample != sample;
     return sample == *heights.no_data;
+}
+
+// The first texel, in row order, that is not a hole; {-1, -1} where all are. Methods that work in float subtract its
+// height from all others first, so that heights far from zero keep their detail.
+template <height_sample Sample>
+[[nodiscard]] constexpr glm::ivec2 reference_texel(const height_map<Sample>& heights) {
+    for (int y = 0; y < heights.extent.y; ++y)
+        for (int x = 0; x < heights.extent.x; ++x)
+            if (!is_no_data(heights, heights.samples[y * heights.row_stride + x])) return {x, y};
+    return {-1, -1};
+}
+
+// Its sample; 0 where there is none.
+template <height_sample Sample>
+[[nodiscard]] constexpr double reference_sample(const height_map<Sample>& heights) {
+    const glm::ivec2 texel = reference_texel(heights);
+    return texel.x < 0 ? 0.0 : static_cast<double>(heights.samples[texel.y * heights.row_stride + texel.x]);
 }
 
 // Sample of the texel at (x, y), which has to lie inside the map.

@@ -55,17 +55,18 @@ struct height_range {
     float highest = std::numeric_limits<float>::lowest();
 };
 
-// Copies rows of the heights into level 0, in units of length.
+// Copies rows of the heights into level 0, in units of length above the reference.
 template <height_sample Sample>
-[[nodiscard]] height_range fill_rows(const height_map<Sample>& heights, const pyramid& p, int first, int end) {
+[[nodiscard]] height_range fill_rows(const height_map<Sample>& heights, const pyramid& p, double reference, int first,
+                                     int end) {
     height_range range;
-    const double scale = unit_height(heights) / p.unit, datum = heights.datum / p.unit;
+    const double scale = unit_height(heights) / p.unit;
     for (int y = first; y < end; ++y) {
         const Sample* from = heights.samples + y * heights.row_stride;
         float* to = p.texels.values + p.texels.offset(0, y);
         float lowest = range.lowest, highest = range.highest;
         for (int x = 0; x < p.texels.texels.x; ++x) {
-            const float h = float(double(from[x]) * scale - datum);
+            const float h = float((double(from[x]) - reference) * scale);
             to[x] = h;
             lowest = h < lowest ? h : lowest;
             highest = h > highest ? h : highest;
@@ -91,11 +92,12 @@ template <height_sample Sample>
 template <height_sample Sample, class Executor>
 [[nodiscard]] height_range fill_ground(const height_map<Sample>& heights, const pyramid& p, Executor&& execute) {
     std::array<height_range, 16> ranges;
+    const double reference = reference_sample(heights);
     const int rows = p.texels.texels.y,
               bands = std::clamp(execute.concurrency(), 1, (std::min)(rows, int(ranges.size())));
     execute(std::size_t(bands), [&](std::size_t i) {
         const auto edge_of = [&](std::size_t band) { return int(std::int64_t(rows) * std::int64_t(band) / bands); };
-        ranges[i] = fill_rows(heights, p, edge_of(i), edge_of(i + 1));
+        ranges[i] = fill_rows(heights, p, reference, edge_of(i), edge_of(i + 1));
     });
     for (const height_range& r : ranges) {
         ranges[0].lowest = (std::min)(ranges[0].lowest, r.lowest);

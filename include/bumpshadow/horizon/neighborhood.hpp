@@ -109,7 +109,7 @@ template <height_sample Sample>
 
 template <height_sample Sample>
 void fill(const tables& to, const height_map<Sample>& heights, glm::ivec2 reach) {
-    const double unit = unit_height(heights);
+    const double unit = unit_height(heights), reference = reference_sample(heights);
     for (std::int64_t y = -reach.y; y < heights.extent.y + reach.y; ++y) {
         const std::int64_t row = resolve_edge(y, heights.extent.y, heights.edge);
         float* const target = to.heights + y * to.stride;
@@ -119,7 +119,7 @@ void fill(const tables& to, const height_map<Sample>& heights, glm::ivec2 reach)
             const std::int64_t column = resolve_edge(x, heights.extent.x, heights.edge);
             if (column < 0) continue;
             const Sample sample = sample_at(heights, column, row);
-            if (!is_no_data(heights, sample)) target[x] = float(double(sample) * unit - heights.datum);
+            if (!is_no_data(heights, sample)) target[x] = float((double(sample) - reference) * unit);
         }
     }
 }

@@ -113,7 +113,7 @@ inline constexpr vertex hull_bottom{std::numeric_limits<float>::lowest(), minus_
     return top;
 }
 
-// Heights as floats, holes as NaN, row by row with a margin on both sides; and column by column.
+// Heights above the reference as floats, holes as NaN, row by row with a margin on both sides; and column by column.
 struct planes {
     float* rows;
     std::ptrdiff_t row_stride;
@@ -128,12 +128,12 @@ struct planes {
 template <height_sample Sample>
 [[nodiscard]] inline bool fill(const planes& to, const height_map<Sample>& heights, int margin) {
     constexpr float hole = std::numeric_limits<float>::quiet_NaN();
-    const double unit = unit_height(heights);
+    const double unit = unit_height(heights), reference = reference_sample(heights);
     bool holes = false;
     for (int y = 0; y < to.extent.y; ++y) {
         float* const row = to.rows + y * to.row_stride;
         const Sample* const samples = heights.samples + y * heights.row_stride;
-        for (int x = 0; x < to.extent.x; ++x) row[x] = float(double(samples[x]) * unit - heights.datum);
+        for (int x = 0; x < to.extent.x; ++x) row[x] = float((double(samples[x]) - reference) * unit);
         if (heights.no_data) {
             for (int x = 0; x < to.extent.x; ++x) {
                 if (!is_no_data(heights, samples[x])) continue;
