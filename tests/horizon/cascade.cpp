@@ -467,6 +467,36 @@ TEST_CASE("cascade: occluders beyond the radius do not count") {
         }
 }
 
+TEST_CASE("cascade: a radius inside the texel's own cell") {
+    // There the slope is linear, so that nothing but rounding is left.
+    auto map = hard({150, 120}, 17);
+    map.at(40, 50) = -1e6f;
+    for (const edge_mode edge : edges)
+        for (const bool holes : {false, true})
+            for (const double radius : {0.5, 0.01, 1e-6, 1e-12}) {
+                CAPTURE(int(edge));
+                CAPTURE(holes);
+                CAPTURE(radius);
+                height_map<float> view = map.view(edge);
+                if (holes) view.no_data = -1e6f;
+                bake_options options = usual;
+                options.radius = radius;
+                slopes values(required_size(map.extent, 16));
+                options.distances = {.values = values, .extent = map.extent, .bearings = 16};
+                int far = 0;
+                trial(view, shapes::directions(16, 0.01), options)
+                    .visit(100, [&](std::size_t i, glm::ivec2 p, double found, const horizon_sample& exact) {
+                        if (p.x > 38 && p.x < 42 && p.y > 48 && p.y < 52) return;
+                        CHECK(found == doctest::Approx(exact.slope).epsilon(2e-5).scale(1.0));
+                        const float distance = options.distances.row(int(i), p.y)[p.x];
+                        if (std::isinf(exact.distance)) return;
+                        CHECK(double(distance) <= radius * 1.000001);
+                        far += distance > 0.0f;
+                    });
+                CHECK((radius < 0.01 || far > 100));
+            }
+}
+
 TEST_CASE("cascade: a curved base") {
     const auto map = hard({90, 80}, 18);
     for (const edge_mode edge : edges)

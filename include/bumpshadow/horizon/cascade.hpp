@@ -129,8 +129,8 @@ template <height_sample Sample>
 [[nodiscard]] rectangle influence(const height_map<Sample>& heights, rectangle changed, const bake_options& options) {
     const rectangle all{glm::ivec2(0), heights.extent};
     if (std::isinf(options.radius)) return all;
-    const glm::ivec2 first = changed.origin, reference = reference_texel(heights);
-    if (reference.x < 0 || first.y < reference.y || (first.y == reference.y && first.x <= reference.x)) return all;
+    const glm::ivec2 start = changed.origin, reference = reference_texel(heights);
+    if (reference.x < 0 || start.y < reference.y || (start.y == reference.y && start.x <= reference.x)) return all;
     // Cells of the highest level that looks within the radius, half as high as they are; they take part in those next
     // to them.
     const glm::dvec2 radius = options.radius / heights.texel_size;

@@ -26,14 +26,15 @@ struct ray {
 };
 
 // One look at the surface, from any texel alike: at the corners of a cell, or two of them, weighted. The slope to it is
-//   sum of weight * height there - inverse * own height + bend
-// where inverse = 1 / distance, and the weights add up to it.
+//   sum of weight * height there - own * own height + bend
+// where the weights add up to `own`, which is 1 / distance unless the texel itself is one of the corners.
 template <int Corners>
 struct look {
     std::ptrdiff_t offset[Corners];
     float weight[Corners];
-    float inverse;
+    float own;
     float bend;
+    float inverse;  // 1 / distance
 };
 
 // Where a ray crosses a row, the surface lies between two neighbors on it.
@@ -52,7 +53,6 @@ struct looks {
     look<2>* columns = nullptr;  // crossings of columns, and the surface beside the texel
     look<4>* insides = nullptr;
     int corner_count = 0, crossing_count = 0, column_count = 0, inside_count = 0;
-    bool beside_in_columns = true;  // the surface beside the texel is the first of the columns, else of the insides
 };
 
 // The looks of a ray, at most `most` of each kind.
@@ -104,15 +104,15 @@ inline void choose_looks(const ray& r, const ground& g, edge_mode edge, double t
     // cell.
     const float beside[2] = {float(column_step), float(row_step)}, almost_nothing = 1e-12f;
     out.columns[out.column_count++] = {
-        {offset(across, 0), offset(0, down)}, {beside[0], beside[1]}, beside[0] + beside[1], 0.0f};
+        {offset(across, 0), offset(0, down)}, {beside[0], beside[1]}, beside[0] + beside[1], 0.0f, inverse_of_zero};
     if (holes) {
         out.insides[out.inside_count++] = {{offset(across, 0), offset(0, down), offset(across, down), 0},
                                            {beside[0], beside[1], almost_nothing, 0.0f},
                                            beside[0] + beside[1],
-                                           0.0f};
+                                           0.0f,
+                                           inverse_of_zero};
         out.column_count = 0;
     }
-    out.beside_in_columns = !holes;
     const bool has_columns = column_step > 1e-6 * row_step && column_step < (1.0 - 1e-9) * row_step;
     for (std::int64_t n = 1; has_columns && out.column_count < most; ++n) {
         const double t = double(n) / column_step;
@@ -121,7 +121,8 @@ inline void choose_looks(const ray& r, const ground& g, edge_mode edge, double t
         out.columns[out.column_count++] = {{offset(across * n, at.cell), offset(across * n, at.cell + 1)},
                                            {float((1.0 - at.part) / t), float(at.part / t)},
                                            float(1.0 / t),
-                                           float(-r.bend * t)};
+                                           float(-r.bend * t),
+                                           float(1.0 / t)};
     }
     const auto look_inside = [&](double t) {
         const place x = place_of(t * r.step.x), y = place_of(t * r.step.y);
@@ -130,8 +131,17 @@ inline void choose_looks(const ray& r, const ground& g, edge_mode edge, double t
             l.offset[i] = offset(x.cell + (i & 1), y.cell + (i >> 1));
             l.weight[i] = float(((i & 1) != 0 ? x.part : 1.0 - x.part) * ((i >> 1) != 0 ? y.part : 1.0 - y.part) / t);
         }
-        l.inverse = float(1.0 / t);
+        l.own = l.inverse = float(1.0 / t);
         l.bend = float(-r.bend * t);
+    };
+    // In the texel's own cell, with what cancels left out, so that a radius may be as small as it likes.
+    const auto look_close = [&](double t) {
+        const double both = column_step * row_step * t;
+        out.insides[out.inside_count++] = {{offset(across, 0), offset(0, down), offset(across, down), 0},
+                                           {float(column_step - both), float(row_step - both), float(both), 0.0f},
+                                           float(column_step + row_step - both),
+                                           float(-r.bend * t),
+                                           float(1.0 / t)};
     };
     double here = 0.0;
     for (double row = 1.0, column = 1.0; out.inside_count < most - 1;) {
@@ -144,7 +154,11 @@ inline void choose_looks(const ray& r, const ground& g, edge_mode edge, double t
         if (to_column <= next && has_columns) column += 1.0;
         here = next;
     }
-    if (r.farthest <= to) look_inside(r.farthest);
+    if (r.farthest > to) return;
+    if (r.farthest * (std::max)(row_step, column_step) < 1.0)
+        look_close(r.farthest);
+    else
+        look_inside(r.farthest);
 }
 
 // The highest slope that each of Packs packs of texels sees and, with Track, the inverse distance of what makes it.
@@ -184,19 +198,17 @@ inline void look_around(const looks& l, const float* heights, float floor, float
             here = after;
         }
     }
-    const auto look_at = [&](const auto& c, float inverse) {
+    const auto look_at = [&](const auto& c) {
         for (int u = 0; u < Packs; ++u) {
-            pack slope = simd::multiply_add(depth[u], simd::splat(c.inverse), simd::splat(c.bend));
+            pack slope = simd::multiply_add(depth[u], simd::splat(c.own), simd::splat(c.bend));
             for (std::size_t i = 0; i < std::size(c.offset); ++i)
                 slope = simd::multiply_add(simd::load(heights + c.offset[i] + u * simd::width),
                                            simd::splat(c.weight[i]), slope);
-            take(u, slope, inverse);
+            take(u, slope, c.inverse);
         }
     };
-    for (int i = 0; i < l.column_count; ++i)
-        look_at(l.columns[i], i == 0 && l.beside_in_columns ? inverse_of_zero : l.columns[i].inverse);
-    for (int i = 0; i < l.inside_count; ++i)
-        look_at(l.insides[i], i == 0 && !l.beside_in_columns ? inverse_of_zero : l.insides[i].inverse);
+    for (int i = 0; i < l.column_count; ++i) look_at(l.columns[i]);
+    for (int i = 0; i < l.inside_count; ++i) look_at(l.insides[i]);
     for (int u = 0; u < Packs; ++u) {
         simd::store(slopes + u * simd::width, best[u]);
         if constexpr (Track) simd::store(inverses + u * simd::width, best_inverse[u]);

@@ -326,13 +326,13 @@ private:
             const look<2>& c = near.columns[i];
             table_.push({int(c.offset[0]), int(c.offset[1]), 0, 0});
             table_.push({bits_of(c.weight[0]), bits_of(c.weight[1]), 0, 0});
-            table_.push({bits_of(c.inverse), 0, 0, 0});
+            table_.push({bits_of(c.own), 0, 0, 0});
         }
         for (int i = 0; i < near.inside_count; ++i) {
             const look<4>& c = near.insides[i];
             table_.push({int(c.offset[0]), int(c.offset[1]), int(c.offset[2]), int(c.offset[3])});
             table_.push({bits_of(c.weight[0]), bits_of(c.weight[1]), bits_of(c.weight[2]), bits_of(c.weight[3])});
-            table_.push({bits_of(c.inverse), 0, 0, 0});
+            table_.push({bits_of(c.own), 0, 0, 0});
         }
         const int width = transposed ? size.y : size.x, slice = bearing * size.x * size.y;
         const int base_cells = p.levels[1].occluders.cells.x;
