@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include <glm/ext/vector_int2.hpp>
 
 #include <bumpshadow/config.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/status.hpp>
 
 namespace bumpshadow {
@@ -96,7 +96,7 @@ template <height_sample Sample>
 [[nodiscard]] constexpr bool is_no_data(const height_map<Sample>& heights, Sample sample) {
     if (!heights.no_data) return false;
     if constexpr (std::is_floating_point_v<Sample>)
-        if (*heights.no_data != *heights.no_data) return sample != sample;
+        if (is_nan(*heights.no_data)) return is_nan(sample);
     return sample == *heights.no_data;
 }
 
@@ -132,10 +132,10 @@ template <height_sample Sample>
     if (heights.extent.y <= 0) return {error::not_positive, "heights.extent.y", double(heights.extent.y)};
     if (heights.row_stride < heights.extent.x)
         return {error::too_small, "heights.row_stride", double(heights.row_stride), double(heights.extent.x)};
-    if (!std::isfinite(heights.height_scale)) return {error::not_finite, "height_scale", heights.height_scale};
-    if (!std::isfinite(heights.datum)) return {error::not_finite, "datum", heights.datum};
-    if (!std::isfinite(heights.texel_size.x)) return {error::not_finite, "texel_size.x", heights.texel_size.x};
-    if (!std::isfinite(heights.texel_size.y)) return {error::not_finite, "texel_size.y", heights.texel_size.y};
+    if (!is_finite(heights.height_scale)) return {error::not_finite, "height_scale", heights.height_scale};
+    if (!is_finite(heights.datum)) return {error::not_finite, "datum", heights.datum};
+    if (!is_finite(heights.texel_size.x)) return {error::not_finite, "texel_size.x", heights.texel_size.x};
+    if (!is_finite(heights.texel_size.y)) return {error::not_finite, "texel_size.y", heights.texel_size.y};
     if (!(heights.texel_size.x > 0.0)) return {error::not_positive, "texel_size.x", heights.texel_size.x};
     if (!(heights.texel_size.y > 0.0)) return {error::not_positive, "texel_size.y", heights.texel_size.y};
     return {};
@@ -147,12 +147,14 @@ template <height_sample Sample>
     if constexpr (std::is_floating_point_v<Sample>) {
         for (int y = 0; y < heights.extent.y; ++y) {
             const Sample* row = heights.samples + y * heights.row_stride;
-            // x - x is 0 for finite x and NaN otherwise, so one sum a row finds whether there is anything to look for.
-            Sample sum = 0;
-            for (int x = 0; x < heights.extent.x; ++x) sum += row[x] - row[x];
-            if (sum == Sample(0)) continue;
+            finite_detail::bits_of<Sample> largest = 0;
+            for (int x = 0; x < heights.extent.x; ++x) {
+                const auto bits = finite_detail::magnitude(row[x]);
+                largest = bits > largest ? bits : largest;
+            }
+            if (largest < finite_detail::infinity_bits<Sample>) continue;
             for (int x = 0; x < heights.extent.x; ++x)
-                if (!std::isfinite(row[x]) && !is_no_data(heights, row[x]))
+                if (!is_finite(row[x]) && !is_no_data(heights, row[x]))
                     return {error::not_finite, "height", double(row[x]), 0.0, {x, y}};
         }
     }

@@ -10,6 +10,7 @@
 #include <glm/ext/vector_double2.hpp>
 #include <glm/ext/vector_int2.hpp>
 
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/status.hpp>
 
@@ -80,7 +81,7 @@ struct bake_options {
 // True where the horizon of a map in itself is never negative: the surface goes on for ever and its base is flat, so
 // that the slope to far points tends to 0.
 [[nodiscard]] constexpr bool horizon_is_never_negative(edge_mode edge, double radius, double curvature) {
-    return edge != edge_mode::open && radius == std::numeric_limits<double>::infinity() && curvature == 0.0;
+    return edge != edge_mode::open && is_infinite(radius) && curvature == 0.0;
 }
 
 // The region of an option, with "empty" replaced by the whole map.
@@ -112,15 +113,14 @@ template <height_sample Sample>
     if (options.steps <= 0) return {error::not_positive, "steps", double(options.steps)};
     if (options.steps > most_steps) return {error::out_of_range, "steps", double(options.steps), double(most_steps)};
     if (!(options.radius > 0.0)) return {error::not_positive, "radius", options.radius};
-    if (!std::isfinite(options.curvature.x)) return {error::not_finite, "curvature.x", options.curvature.x};
-    if (!std::isfinite(options.curvature.y)) return {error::not_finite, "curvature.y", options.curvature.y};
+    if (!is_finite(options.curvature.x)) return {error::not_finite, "curvature.x", options.curvature.x};
+    if (!is_finite(options.curvature.y)) return {error::not_finite, "curvature.y", options.curvature.y};
     for (const glm::dvec2 d : directions) {
-        if (!std::isfinite(d.x) || !std::isfinite(d.y))
-            return {error::not_finite, "direction", std::isfinite(d.x) ? d.y : d.x};
+        if (!is_finite(d.x) || !is_finite(d.y)) return {error::not_finite, "direction", is_finite(d.x) ? d.y : d.x};
         if (d.x == 0.0 && d.y == 0.0) return {error::not_positive, "length of a direction", 0.0};
         const glm::dvec2 scaled =
             d / (std::max)(std::abs(d.x), std::abs(d.y));  // or its square could over- or underflow
-        if (std::isinf(options.radius) && curvature_along(options.curvature, scaled) < 0.0)
+        if (is_infinite(options.radius) && curvature_along(options.curvature, scaled) < 0.0)
             return {error::out_of_range, "curvature (negative needs a finite radius)",
                     options.curvature.x < 0.0 ? options.curvature.x : options.curvature.y, 0.0};
     }

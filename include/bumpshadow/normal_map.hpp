@@ -11,6 +11,7 @@
 #include <glm/ext/vector_int2.hpp>
 
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/pixels.hpp>
@@ -193,7 +194,7 @@ struct normal_encoding {
 [[nodiscard]] inline status check(const normal_encoding& encoding) {
     if (encoding.form == normal_form::derivatives && !(encoding.max_slope > 0.0f))
         return {error::not_positive, "max_slope", double(encoding.max_slope)};
-    if (!std::isfinite(encoding.max_slope)) return {error::not_finite, "max_slope", double(encoding.max_slope)};
+    if (!is_finite(encoding.max_slope)) return {error::not_finite, "max_slope", double(encoding.max_slope)};
     return {};
 }
 

@@ -13,6 +13,7 @@
 
 #include <bumpshadow/encode/mean_level.hpp>
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/normal_map.hpp>
 #include <bumpshadow/pixels.hpp>
@@ -58,7 +59,7 @@ template <height_sample Sample>
             low = (std::min)(low, height);
             high = (std::max)(high, height);
         }
-    out = high > low ? emboss{low, 0.5 / (high - low)} : emboss{std::isfinite(low) ? low : 0.0, 0.0};
+    out = high > low ? emboss{low, 0.5 / (high - low)} : emboss{is_finite(low) ? low : 0.0, 0.0};
     return {};
 }
 
@@ -103,8 +104,8 @@ template <height_sample Sample, executor Executor = serial>
 [[nodiscard]] status pack_emboss(const height_map<Sample>& heights, const emboss& encoding, const texture& out,
                                  const texture& inverse = {}, std::size_t* clamped = nullptr, Executor&& execute = {}) {
     if (status s = check(heights); !s) return s;
-    if (!std::isfinite(encoding.lowest)) return {error::not_finite, "lowest", encoding.lowest};
-    if (!std::isfinite(encoding.scale)) return {error::not_finite, "scale", encoding.scale};
+    if (!is_finite(encoding.lowest)) return {error::not_finite, "lowest", encoding.lowest};
+    if (!is_finite(encoding.scale)) return {error::not_finite, "scale", encoding.scale};
     if (encoding.scale < 0.0) return {error::out_of_range, "scale", encoding.scale, 0.0};
     const bool both = !inverse.bytes.empty();
     for (const texture* t : {&out, &inverse}) {

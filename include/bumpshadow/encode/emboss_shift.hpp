@@ -9,6 +9,7 @@
 #include <glm/ext/vector_int2.hpp>
 
 #include <bumpshadow/encode/emboss.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/status.hpp>
 #include <bumpshadow/texture.hpp>
 
@@ -105,7 +106,7 @@ struct emboss_shift_range {
 
 // A warning: out_of_range for a shift, in texels, that is outside the range. Drawing with it is well defined.
 [[nodiscard]] inline status check_emboss_shift(float shift, const emboss_shift_range& range) {
-    if (!std::isfinite(shift)) return {error::not_finite, "shift", double(shift)};
+    if (!is_finite(shift)) return {error::not_finite, "shift", double(shift)};
     if (shift < range.smallest)
         return {error::out_of_range, "shift (too small, hides gentle slopes)", double(shift), double(range.smallest)};
     if (shift > range.largest)

@@ -18,6 +18,7 @@
 #include <bumpshadow/encode/slices.hpp>
 #include <bumpshadow/encode/stored_rows.hpp>
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/status.hpp>
@@ -74,8 +75,8 @@ inline constexpr float fourier_posted_c = 0.5f;
     if (encoding.bits != 8 && encoding.bits != 16) return {error::not_supported, "bits", double(encoding.bits)};
     for (int i = 0; i < n; ++i) {
         const fourier_range r = encoding.ranges[std::size_t(i)];
-        if (!std::isfinite(r.low)) return {error::not_finite, "range.low", double(r.low)};
-        if (!std::isfinite(r.high)) return {error::not_finite, "range.high", double(r.high)};
+        if (!is_finite(r.low)) return {error::not_finite, "range.low", double(r.low)};
+        if (!is_finite(r.high)) return {error::not_finite, "range.high", double(r.high)};
         if (r.low > r.high) return {error::out_of_range, "range.low", double(r.low), double(r.high)};
     }
     return check(encoding.scale);

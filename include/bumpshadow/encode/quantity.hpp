@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <bumpshadow/choices.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/status.hpp>
 
 namespace bumpshadow {
@@ -23,7 +24,7 @@ inline constexpr float smallest_max_slope = 1e-18f;
     if (!(scale.max_slope > 0.0f)) return {error::not_positive, "max_slope", double(scale.max_slope)};
     if (!(scale.max_slope >= smallest_max_slope))
         return {error::out_of_range, "max_slope", double(scale.max_slope), double(smallest_max_slope)};
-    if (scale.stored == quantity::slope && !std::isfinite(scale.max_slope))
+    if (scale.stored == quantity::slope && !is_finite(scale.max_slope))
         return {error::not_finite, "max_slope", double(scale.max_slope)};
     return {};
 }

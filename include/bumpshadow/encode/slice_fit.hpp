@@ -9,6 +9,7 @@
 
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/encode/quantity.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/simd.hpp>
 #include <bumpshadow/status.hpp>
 
@@ -37,7 +38,7 @@ enum class slice_fit : unsigned char {
 [[nodiscard]] inline status check(const slice_set& slices) {
     if (slices.count <= 0) return {error::not_positive, "slices", double(slices.count)};
     if (slices.count > most_slices) return {error::out_of_range, "slices", double(slices.count), double(most_slices)};
-    if (!std::isfinite(slices.phase)) return {error::not_finite, "phase", slices.phase};
+    if (!is_finite(slices.phase)) return {error::not_finite, "phase", slices.phase};
     return {};
 }
 

@@ -14,6 +14,7 @@
 #include <bumpshadow/encode/slice_bands.hpp>
 #include <bumpshadow/encode/slice_fit.hpp>
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/simd.hpp>
@@ -48,8 +49,7 @@ namespace bumpshadow {
     if (directions.size() != std::size_t(slopes.bearings))
         return {error::mismatch, "directions", double(directions.size()), double(slopes.bearings)};
     for (const glm::dvec2 d : directions) {
-        if (!std::isfinite(d.x) || !std::isfinite(d.y))
-            return {error::not_finite, "direction", std::isfinite(d.x) ? d.y : d.x};
+        if (!is_finite(d.x) || !is_finite(d.y)) return {error::not_finite, "direction", is_finite(d.x) ? d.y : d.x};
         if (d.x == 0.0 && d.y == 0.0) return {error::not_positive, "length of a direction", 0.0};
     }
     return {};

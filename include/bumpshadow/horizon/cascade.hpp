@@ -11,6 +11,7 @@
 #include <glm/ext/vector_int2.hpp>
 
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/cascade_build.hpp>
 #include <bumpshadow/horizon/cascade_cells.hpp>
@@ -128,7 +129,7 @@ template <height_sample Sample, executor Executor = serial>
 template <height_sample Sample>
 [[nodiscard]] rectangle influence(const height_map<Sample>& heights, rectangle changed, const bake_options& options) {
     const rectangle all{glm::ivec2(0), heights.extent};
-    if (std::isinf(options.radius)) return all;
+    if (is_infinite(options.radius)) return all;
     const glm::ivec2 start = changed.origin, reference = reference_texel(heights);
     if (reference.x < 0 || start.y < reference.y || (start.y == reference.y && start.x <= reference.x)) return all;
     // Cells of the highest level that looks within the radius, half as high as they are; they take part in those next

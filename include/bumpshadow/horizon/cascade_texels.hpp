@@ -11,6 +11,7 @@
 #include <glm/ext/vector_double2.hpp>
 #include <glm/ext/vector_int2.hpp>
 
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/cascade_build.hpp>
 #include <bumpshadow/horizon/cascade_cells.hpp>
@@ -60,7 +61,8 @@ struct reach {
 // Occluders farther than this are beyond the radius or all borders, or make slopes of less than 1/1024 (0.06 degrees)
 // on a map that repeats and has been seen four times over.
 [[nodiscard]] inline double farthest_distance(const job& j, const pyramid& p, glm::dvec2 step, bool never_negative) {
-    double farthest = j.options.radius / p.unit;
+    const bool endless = is_infinite(j.options.radius);
+    double farthest = endless ? std::numeric_limits<double>::max() : j.options.radius / p.unit;
     const glm::dvec2 extent(p.texels.texels);
     if (p.edge == edge_mode::clamp || p.edge == edge_mode::open) {
         const double x = (extent.x + 1.0) / std::abs(step.x), y = (extent.y + 1.0) / std::abs(step.y);
@@ -68,7 +70,7 @@ struct reach {
             farthest = (std::min)({farthest, x, y});
         else
             farthest = (std::min)(farthest, step.x == 0.0 ? y : (std::max)(x, y));
-    } else if (never_negative || std::isinf(farthest)) {
+    } else if (never_negative || endless) {
         const double low = 1024.0 * (double(j.range.highest) - double(j.range.lowest)) + 1.0;
         farthest =
             (std::min)({farthest, low, (std::max)(4096.0, 4.0 * (std::max)(extent.x, extent.y)) / std::abs(step.y)});

@@ -13,6 +13,7 @@
 
 #include <bumpshadow/config.hpp>
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/height_bounds.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon_map.hpp>
@@ -50,6 +51,8 @@ inline constexpr double impatience = 1e-14;
 inline constexpr double farthest = 1e15;
 // The same for endless maps with holes, where a ray may meet no surface at all.
 inline constexpr double farthest_with_holes = 1e7;
+// Slope below any that heights make.
+inline constexpr double nothing = -1e300;
 
 // One axis of the map as a ray sees it that starts at a texel: its cell i lies between texels i and i + 1 from there.
 struct axis {
@@ -106,7 +109,7 @@ public:
     rays(const height_map<Sample>& heights, const height_bounds<Sample>& bounds, glm::dvec2 direction, double radius,
          glm::dvec2 curvature)
         : heights_(heights), bounds_(bounds), unit_(unit_height(heights)) {
-        BUMPSHADOW_ASSERT(std::isfinite(direction.x) && std::isfinite(direction.y));
+        BUMPSHADOW_ASSERT(is_finite(direction.x) && is_finite(direction.y));
         BUMPSHADOW_ASSERT(direction.x != 0.0 || direction.y != 0.0);
         BUMPSHADOW_ASSERT(radius > 0.0);
         // Before any rounding of the length, so that a ray meant to pass through corners does.
@@ -131,14 +134,14 @@ public:
         const glm::dvec2 way(size.x, tangent_ * size.y);
         reach_ = std::hypot(way.x, way.y);
         bend_ = 0.5 * (curvature.x * way.x * way.x + curvature.y * way.y * way.y);
-        const bool endless = std::isinf(radius);
+        const bool endless = is_infinite(radius);
         BUMPSHADOW_ASSERT(!endless ||
                           bend_ >= -1e-12 * (std::abs(curvature.x) + std::abs(curvature.y)) * reach_ * reach_);
         if (endless) bend_ = (std::max)(bend_, 0.0);
         starts_at_zero_ = horizon_is_never_negative(heights.edge, radius, bend_);
 
         range_ = std::abs(double(bounds.highest()) * unit_ - double(bounds.lowest()) * unit_);
-        limit_ = (std::min)(radius / reach_, farthest);
+        limit_ = endless ? farthest : (std::min)(radius / reach_, farthest);
         const bool recurs = heights.edge == edge_mode::repeat || heights.edge == edge_mode::mirror;
         if (recurs && bend_ >= 0.0) {
             const double fold = heights.edge == edge_mode::mirror ? 2.0 : 1.0;
@@ -154,8 +157,8 @@ public:
 
         walk ray{*this, double(own), swapped_ ? texel.y : texel.x, swapped_ ? texel.x : texel.y, limit_};
         ray.run();
-        if (ray.best == -std::numeric_limits<double>::infinity()) return {};
-        return {ray.best / reach_, ray.distance * reach_};
+        if (ray.best <= 0.5 * nothing) return {};
+        return {ray.best / reach_, is_infinite(ray.distance) ? ray.distance : ray.distance * reach_};
     }
 
 private:
@@ -165,7 +168,7 @@ private:
         const double own;  // sample at the start
         const std::int64_t major_origin, minor_origin;
         double limit;
-        double best = of.starts_at_zero_ ? 0.0 : -std::numeric_limits<double>::infinity();
+        double best = of.starts_at_zero_ ? 0.0 : nothing;
         double distance = std::numeric_limits<double>::infinity();
         double slope_there = best;
 
@@ -249,7 +252,7 @@ private:
                 best -= 1e-11 * std::abs(best) + std::numeric_limits<double>::min();
                 slope_there = best;
             }
-            const double never = std::numeric_limits<double>::infinity();
+            const double never = std::numeric_limits<double>::max();
             double s = 0.0;
             std::int64_t i = 0, j = 0;
             int level = 0;
@@ -296,7 +299,7 @@ private:
     bool starts_at_zero_ = false;
     double range_ = 0.0;
     double limit_ = farthest;
-    double again_ = std::numeric_limits<double>::infinity();
+    double again_ = std::numeric_limits<double>::max();
 };
 
 }  // namespace exact_detail
@@ -346,6 +349,8 @@ template <height_sample Sample>
 template <height_sample Sample, executor Executor = serial>
 [[nodiscard]] status bake_exact(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
                                 const horizon_map& out, const bake_options& options = {}, Executor&& execute = {}) {
+    if (finite_math_only && heights.no_data)
+        return {error::not_supported, "no_data (in a build with -ffast-math)", double(*heights.no_data)};
     if (status s = check_bake(heights, directions, out, options); !s) return s;
     if (status s = check_samples(heights); !s) return s;
 

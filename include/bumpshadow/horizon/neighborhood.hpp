@@ -14,6 +14,7 @@
 
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
@@ -53,7 +54,7 @@ struct neighborhood {
     neighborhood(glm::dvec2 size, double limit) : texel_size(size), radius(limit) {
         // What is above the largest is an error, and must not overflow before that is found.
         const auto texels = [&](double spacing) {
-            const double count = std::isinf(radius) ? double(neighborhood_radius) : radius / spacing;
+            const double count = is_infinite(radius) ? double(neighborhood_radius) : radius / spacing;
             return count <= largest_neighborhood ? int((std::max)(count, 0.0)) : largest_neighborhood + 1;
         };
         reach = {texels(size.x), texels(size.y)};
@@ -61,7 +62,7 @@ struct neighborhood {
 
     [[nodiscard]] bool contains(int x, int y) const {
         if (x == 0 && y == 0) return false;
-        if (std::isinf(radius)) return x * x + y * y <= neighborhood_radius * neighborhood_radius;
+        if (is_infinite(radius)) return x * x + y * y <= neighborhood_radius * neighborhood_radius;
         return std::hypot(x * texel_size.x, y * texel_size.y) <= radius;
     }
 
@@ -138,8 +139,10 @@ inline void sines(const float* center, std::span<const tap> taps, float* out) {
             squared_tangent[x] = tangent > squared_tangent[x] ? tangent : squared_tangent[x];
         }
     }
-    // 0 where no texel is higher, since 1 / 0 is infinite.
-    for (int x = 0; x < chunk; ++x) out[x] = 1.0f / std::sqrt(1.0f / squared_tangent[x] + 1.0f);
+    for (int x = 0; x < chunk; ++x) {
+        const float square = squared_tangent[x] < 1e30f ? squared_tangent[x] : 1e30f;  // may be infinite
+        out[x] = std::sqrt(square / (1.0f + square));
+    }
 }
 
 }  // namespace neighborhood_detail

@@ -9,6 +9,7 @@
 #include <glm/ext/vector_int2.hpp>
 
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/sweep_lines.hpp>
 #include <bumpshadow/horizon_map.hpp>
@@ -112,11 +113,13 @@ template <bool improved, height_sample Sample, class Executor>
 [[nodiscard]] status bake(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
                           const horizon_map& out, const bake_options& options, Executor& execute) {
     if (status s = check_bake(heights, directions, out, options); !s) return s;
-    if (!std::isinf(options.radius)) return {error::not_supported, "radius", options.radius};
+    if (!is_infinite(options.radius)) return {error::not_supported, "radius", options.radius};
     if (options.curvature.x != 0.0) return {error::not_supported, "curvature.x", options.curvature.x};
     if (options.curvature.y != 0.0) return {error::not_supported, "curvature.y", options.curvature.y};
     if (!options.distances.values.empty())
         return {error::not_supported, "distances", double(options.distances.values.size())};
+    // A hull begins at infinity.
+    if (finite_math_only) return {error::not_supported, "finite_math_only (-ffast-math)", 1.0};
     const int side = (std::max)(heights.extent.x, heights.extent.y);
     if (side > largest_extent) return {error::out_of_range, "heights.extent", double(side), double(largest_extent)};
     if (status s = check_samples(heights); !s) return s;
@@ -194,12 +197,12 @@ template <height_sample Sample, executor Executor = serial>
 //   directions: in surface space (units of texel_size), at least one, of any length; direction i makes slice i of out
 //   out: slopes, [direction][y][x], of the region's extent; signed where the edge is open, else never negative;
 //       no_horizon at holes and where an open map ends
-// Errors: what check_bake() and check_samples() find, a radius, curvature or distances (not_supported), sides above
-// 4194304 texels, scratch. On an error nothing is written. The result does not depend on the executor, on the region or
-// on the other directions, bit for bit.
-// Accuracy: against bake_exact a mean error of elevation of 0.01 to 0.03 degrees (99th percentile 0.2 to 0.7) on five
-// real maps of 256 to 1024 texels a side, 16 directions. Over endless maps (repeat, mirror) occluders count up to one
-// length of the map beyond it, or 256 texels if that is more.
+// Errors: what check_bake() and check_samples() find, a radius, curvature, distances or a build with -ffast-math
+// (not_supported), sides above 4194304 texels, scratch. On an error nothing is written. The result does not depend on
+// the executor, on the region or on the other directions, bit for bit. Accuracy: against bake_exact a mean error of
+// elevation of 0.01 to 0.03 degrees (99th percentile 0.2 to 0.7) on five real maps of 256 to 1024 texels a side, 16
+// directions. Over endless maps (repeat, mirror) occluders count up to one length of the map beyond it, or 256 texels
+// if that is more.
 template <height_sample Sample, executor Executor = serial>
 [[nodiscard]] status bake_sweep(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
                                 const horizon_map& out, const bake_options& options = {}, Executor&& execute = {}) {

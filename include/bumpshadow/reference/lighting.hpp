@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/normal_map.hpp>
 #include <bumpshadow/pixels.hpp>
 #include <bumpshadow/quantize.hpp>
@@ -125,7 +126,7 @@ template <executor Executor = serial>
                               Executor&& execute = {}) {
     if (status s = check(from); !s) return s;
     if (status s = check(out, from.extent, 3); !s) return s;
-    if (!std::isfinite(exposure)) return {error::not_finite, "exposure", double(exposure)};
+    if (!is_finite(exposure)) return {error::not_finite, "exposure", double(exposure)};
     std::forward<Executor>(execute)(std::size_t(from.extent.y), [&](std::size_t y) {
         const float* light = from.row(int(y));
         std::byte* texel = out.row(int(y));

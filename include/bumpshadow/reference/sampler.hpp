@@ -15,6 +15,7 @@
 #include <bumpshadow/config.hpp>
 #include <bumpshadow/encode/bc1.hpp>
 #include <bumpshadow/encode/bc4.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/quantize.hpp>
 #include <bumpshadow/texture.hpp>
@@ -167,7 +168,7 @@ template <class Vector, class Scalar = typename Vector::value_type>
 [[nodiscard]] inline glm::vec4 sample(const const_texture& from, const sampler& how, glm::vec2 uv, float level = 0.0f,
                                       int layer = 0) {
     BUMPSHADOW_ASSERT(from.layout.kind == texture_kind::flat || from.layout.kind == texture_kind::array);
-    BUMPSHADOW_ASSERT(std::isfinite(uv.x) && std::isfinite(uv.y) && !std::isnan(level));
+    BUMPSHADOW_ASSERT(is_finite(uv.x) && is_finite(uv.y) && !is_nan(level));
     return sampler_detail::across_levels(from.layout.mips, level, how, [&](int mip) {
         const glm::ivec2 extent = from.layout.level_extent(mip);
         const auto x = sampler_detail::tap_of(uv.x, extent.x, how.x, how);
@@ -183,7 +184,7 @@ template <class Vector, class Scalar = typename Vector::value_type>
 [[nodiscard]] inline glm::vec4 sample_volume(const const_texture& from, const sampler& how, glm::vec3 uvw,
                                              float level = 0.0f) {
     BUMPSHADOW_ASSERT(from.layout.kind == texture_kind::volume);
-    BUMPSHADOW_ASSERT(std::isfinite(uvw.x) && std::isfinite(uvw.y) && std::isfinite(uvw.z) && !std::isnan(level));
+    BUMPSHADOW_ASSERT(is_finite(uvw.x) && is_finite(uvw.y) && is_finite(uvw.z) && !is_nan(level));
     return sampler_detail::across_levels(from.layout.mips, level, how, [&](int mip) {
         const glm::ivec2 extent = from.layout.level_extent(mip);
         const auto x = sampler_detail::tap_of(uvw.x, extent.x, how.x, how);
@@ -205,8 +206,8 @@ template <class Vector, class Scalar = typename Vector::value_type>
 [[nodiscard]] inline glm::vec4 sample_cube(const const_texture& from, const sampler& how, glm::vec3 direction,
                                            float level = 0.0f) {
     BUMPSHADOW_ASSERT(from.layout.kind == texture_kind::cube);
-    BUMPSHADOW_ASSERT(std::isfinite(direction.x) && std::isfinite(direction.y) && std::isfinite(direction.z));
-    BUMPSHADOW_ASSERT(!std::isnan(level));
+    BUMPSHADOW_ASSERT(is_finite(direction.x) && is_finite(direction.y) && is_finite(direction.z));
+    BUMPSHADOW_ASSERT(!is_nan(level));
     const auto place = sampler_detail::place_on_cube(direction);
     const float major = place.major > 0.0f ? place.major : 1.0f;
     const glm::vec2 st(0.5f * (place.s / major + 1.0f), 0.5f * (place.t / major + 1.0f));

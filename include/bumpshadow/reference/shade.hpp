@@ -17,6 +17,7 @@
 #include <glm/geometric.hpp>
 
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/normal_map.hpp>
 #include <bumpshadow/pixels.hpp>
 #include <bumpshadow/reference/lighting.hpp>
@@ -243,7 +244,7 @@ private:
             done = far_ && shadow_.row(out_.extent, at, count, w.light.at(0), w.factor);
         for (int i = 0; !done && i < count; ++i)
             w.factor[i] = shadow_(placed_ ? w.points[i].uv : surface_(at + glm::ivec2(i, 0)).uv, w.light.at(i));
-        if (std::isfinite(options_.fade_start) && !shades)
+        if (is_finite(options_.fade_start) && !shades)
             for (int i = 0; i < count; ++i)
                 w.factor[i] = shader::bumpshadow_shadow_fade(
                     w.factor[i], glm::length(*options_.viewer_position - w.points[i].position), options_.fade_start,
@@ -299,10 +300,10 @@ private:
     if (status s = finite("viewer_direction", options.viewer_direction); !s) return s;
     if (options.viewer_position)
         if (status s = finite("viewer_position", *options.viewer_position); !s) return s;
-    if (!(options.shininess >= 0.0f && std::isfinite(options.shininess)))
+    if (!(options.shininess >= 0.0f && is_finite(options.shininess)))
         return {error::out_of_range, "shininess", double(options.shininess), 0.0};
-    if (std::isnan(options.fade_start)) return {error::not_finite, "fade_start", double(options.fade_start)};
-    if (std::isfinite(options.fade_start)) {
+    if (is_nan(options.fade_start)) return {error::not_finite, "fade_start", double(options.fade_start)};
+    if (is_finite(options.fade_start)) {
         if (!options.viewer_position) return {error::missing, "viewer_position (needed to fade)"};
         if (!(options.fade_end >= options.fade_start))
             return {error::out_of_range, "fade_end", double(options.fade_end), double(options.fade_start)};

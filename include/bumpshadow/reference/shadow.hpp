@@ -23,6 +23,7 @@
 #include <bumpshadow/encode/ssbump.hpp>
 #include <bumpshadow/encode/tangent_volume.hpp>
 #include <bumpshadow/factor_cube.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/normal_map.hpp>
 #include <bumpshadow/reference/sampler.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>
@@ -319,7 +320,7 @@ inline void volume_row(const tangent_volume& encoding, const const_texture& from
             for (int i = 0; i < block; ++i) values[i] = float(a[x + i]) * to_a + float(b[x + i]) * to_b;
         else
             for (int i = 0; i < left; ++i) values[i] = float(a[x + i]) * to_a + float(b[x + i]) * to_b;
-        if (std::isinf(k))
+        if (is_infinite(k))
             for (float& v : values) v = shader::bumpshadow_shadow_hard(elevation, v);
         else
             for (float& v : values) v = shader::bumpshadow_shadow_soft(elevation, v, k, c);

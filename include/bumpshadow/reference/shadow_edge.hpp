@@ -8,6 +8,7 @@
 #include <glm/ext/vector_float3.hpp>
 
 #include <bumpshadow/encode/quantity.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/shader/shader.hpp>
 #include <bumpshadow/status.hpp>
 
@@ -76,12 +77,10 @@ inline constexpr double sun_radius = 0.2666;
 [[nodiscard]] inline double elevation_of(glm::vec3 light) {
     const double z = double(light.z), flat = std::hypot(double(light.x), double(light.y));
     const double degrees = std::atan2(z, flat) * (180.0 / std::numbers::pi);
-    return std::isfinite(degrees) ? degrees : 0.0;
+    return is_finite(degrees) ? degrees : 0.0;
 }
 
-[[nodiscard]] inline bool is_finite(glm::vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+[[nodiscard]] inline bool is_finite(glm::vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
 namespace shadow_detail {
 
@@ -96,8 +95,8 @@ namespace shadow_detail {
 }
 
 [[nodiscard]] inline float edge_factor(float light, float horizon, const shadow_edge& edge) {
-    return std::isinf(edge.k) ? shader::bumpshadow_shadow_hard(light, horizon)
-                              : shader::bumpshadow_shadow_soft(light, horizon, edge.k, edge.c);
+    return is_infinite(edge.k) ? shader::bumpshadow_shadow_hard(light, horizon)
+                               : shader::bumpshadow_shadow_soft(light, horizon, edge.k, edge.c);
 }
 
 }  // namespace shadow_detail
