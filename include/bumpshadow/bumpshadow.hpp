@@ -27,6 +27,7 @@
 #include <bumpshadow/horizon/neighborhood.hpp>
 #include <bumpshadow/horizon/sweep.hpp>
 #include <bumpshadow/horizon_map.hpp>
+#include <bumpshadow/measure.hpp>
 #include <bumpshadow/normal_map.hpp>
 #include <bumpshadow/pixels.hpp>
 #include <bumpshadow/quantize.hpp>
