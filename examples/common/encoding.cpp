@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 #include <initializer_list>
 #include <limits>
@@ -15,8 +14,6 @@
 #include <bumpshadow/factor_cube.hpp>
 #include <bumpshadow/normal_map.hpp>
 
-#include "common/arguments.hpp"
-#include "common/choices.hpp"
 #include "common/progress.hpp"
 
 namespace examples {
@@ -47,8 +44,47 @@ struct horizons {
     horizons& operator=(horizons&&) = default;
 };
 
-// Evenly spaced directions of all bearings, enough for a fit to `slices`.
-std::size_t directions_for(int slices) { return std::size_t(std::max(32, 4 * slices)); }
+// Evenly spaced directions for a fit: four to a slice and 32 to the turn, at least, those of both ends of an arc
+// included.
+std::vector<glm::dvec2> directions_for(bs::slice_set slices) {
+    if (bs::is_arc(slices)) {
+        slices.count = std::max(int(std::ceil(32.0 * slices.arc)), 4 * (slices.count - 1)) + 1;
+        std::vector<glm::dvec2> directions(std::size_t(slices.count));
+        bs::fill_directions(directions, slices);
+        return directions;
+    }
+    std::vector<glm::dvec2> directions(std::size_t(std::max(32, 4 * slices.count)));
+    bs::fill_directions(directions, 0.0);
+    return directions;
+}
+
+// Slices of what the command line says: as far apart as 8 around the turn, where it does not say how many.
+bs::slice_set slices_of(const encoding_settings& settings) {
+    bs::slice_set slices;
+    slices.function = settings.function;
+    if (settings.arc) {
+        const auto [first, last] = *settings.arc;
+        const auto bearing = [&](double degrees) {
+            return bs::to_bearing(settings.function, bs::exact_direction(degrees / 360.0));
+        };
+        if (!(last >= first && last - first < 360.0)) {
+            char message[120];
+            std::snprintf(message, sizeof message,
+                          "--arc: %g %g is given, but LAST has to be from FIRST to less than 360 above it", first,
+                          last);
+            throw failure(message);
+        }
+        slices.phase = bearing(first);
+        slices.arc = 0.0;
+        if (last - first > 360.0 * bs::smallest_arc) {
+            const double turns = bearing(last) - slices.phase;
+            slices.arc = turns - std::floor(turns);
+        }
+        slices.count = int(std::ceil(slices.count * slices.arc - 1e-9)) + 1;
+    }
+    slices.count = settings.bearings.value_or(slices.count);
+    return slices;
+}
 
 struct job {
     const height_samples& samples;
@@ -117,7 +153,7 @@ struct job {
             return levels;
         }
         horizons fitted(h.map.extent, std::size_t(slices.count));
-        bs::fill_directions(fitted.directions, slices.phase, slices.function);
+        bs::fill_directions(fitted.directions, slices);
         bs::pack_options options;
         options.fit = settings.fit;
         options.report = &result.report;
@@ -150,9 +186,9 @@ struct job {
     }
 
     horizons bake_for(const bs::slice_set& slices) const {
-        if (settings.fit != bs::slice_fit::point) return bake_evenly(directions_for(slices.count));
+        if (settings.fit != bs::slice_fit::point) return bake(directions_for(slices));
         std::vector<glm::dvec2> directions(std::size_t(slices.count));
-        bs::fill_directions(directions, slices.phase, slices.function);
+        bs::fill_directions(directions, slices);
         return bake(std::move(directions));
     }
 
@@ -161,13 +197,13 @@ struct job {
 
     void tangent() const {
         bs::tangent_volume e;
-        e.slices.count = settings.bearings.value_or(e.slices.count);
-        e.slices.function = settings.function;
+        e.slices = slices_of(settings);
         e.format = settings.bits == stored_bits::eight     ? bs::texel_format::r8
                    : settings.bits == stored_bits::sixteen ? bs::texel_format::r16
                                                            : bs::texel_format::bc4;
         // Levels of a volume have fewer slices, and cannot keep the share of shadowed texels.
         if (settings.array || settings.mips) e.kind = bs::texture_kind::array;
+        if (settings.arc && e.slices.count == 1) e.kind = bs::texture_kind::flat;
         require(check(e.slices));
         horizons h = bake_for(e.slices);
         e.scale = scale_for(h, bs::quantity::slope, false);
@@ -285,6 +321,7 @@ void refuse_what_does_not_fit(const encoding_settings& s) {
     only(s.bits == stored_bits::bc4, "--bits bc4", {kind::tangent});
     only(s.bits == stored_bits::sixteen, "--bits 16", {kind::tangent, kind::fourier});
     only(s.array, "--array", {kind::tangent});
+    only(s.arc.has_value(), "--arc", {kind::tangent});
     only(s.overlapping, "--overlapping", {kind::layers});
     only(s.published, "--published", {kind::sine, kind::fourier});
     only(s.factor_cube, "--factor-cube", {kind::sine});
@@ -297,126 +334,7 @@ void refuse_what_does_not_fit(const encoding_settings& s) {
         throw failure("--published has its own --stored, --max-slope and --square-root");
 }
 
-// printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
-    char buffer[512];
-    std::va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(buffer, sizeof buffer, format, arguments);
-    va_end(arguments);
-    return buffer;
-}
-
-// JSON has no infinity: none stands for it.
-std::string number(double value) { return std::isfinite(value) ? text("%.9g", value) : "null"; }
-
-const char* name_of(bs::quantity stored) { return word_of(quantity_names, stored); }
-const char* name_of(bs::bearing_function function) { return word_of(bearing_function_names, function); }
-
-const char* name_of(bs::texel_format format) {
-    constexpr const char* names[] = {"r8",      "rg8",  "rgba8",   "r16",    "rgba16", "r16f",
-                                     "rgba16f", "r32f", "rgba32f", "rgb565", "bc1",    "bc4"};
-    return names[int(format)];
-}
-
-std::string json_of(const bs::slice_set& slices) {
-    return text("\"bearings\":%d,\"phase\":%.9g,\"bearing_function\":\"%s\",", slices.count, slices.phase,
-                name_of(slices.function));
-}
-std::string json_of(const bs::horizon_scale& scale) {
-    return text("\"stored\":\"%s\",\"max_slope\":%s,", name_of(scale.stored), number(double(scale.max_slope)).c_str());
-}
-std::string json_of(const bs::tangent_volume& e) {
-    return "\"encoding\":\"tangent\"," + json_of(e.slices) + json_of(e.scale) +
-           text("\"coordinate_offset\":%.9g,", coordinate_offset(e));
-}
-std::string json_of(const bs::slice_layers& e) {
-    return "\"encoding\":\"layers\"," + json_of(e.slices) + json_of(e.scale) +
-           text("\"overlapping\":%s,", e.grouping == bs::slice_grouping::overlapping ? "true" : "false");
-}
-std::string json_of(const bs::sine_layers& e) { return "\"encoding\":\"sine\",\"bearings\":8," + json_of(e.scale); }
-std::string json_of(const bs::fourier& e) {
-    std::string ranges;
-    for (int i = 0; i < e.coefficients; ++i) {
-        const bs::fourier_range r = stored_range(e, i);
-        ranges += text("%s[%.9g,%.9g]", i == 0 ? "" : ",", double(r.low), double(r.high));
-    }
-    return "\"encoding\":\"fourier\"," + json_of(e.scale) +
-           text("\"coefficients\":%d,\"square_root\":%s,\"stored_ranges\":[", e.coefficients,
-                e.square_root ? "true" : "false") +
-           ranges + "],";
-}
-std::string json_of(const bs::ssbump& e) {
-    constexpr const char* occlusions[] = {"none", "ambient", "directional"};
-    return text("\"encoding\":\"ssbump\",\"y\":\"%s\",\"occlusion\":\"%s\",\"mask_scale\":%.9g,",
-                e.y == bs::normal_y::down ? "down" : "up", occlusions[int(e.occlusion)], double(mask_scale(e)));
-}
-std::string json_of(const bs::emboss& e) {
-    return text("\"encoding\":\"emboss\",\"lowest\":%.9g,\"scale\":%.9g,", e.lowest, e.scale);
-}
-
 }  // namespace
-
-void add_encoding_options(CLI::App& app, encoding_settings& settings, bool extra) {
-    std::vector<std::pair<std::string, encoding_kind>> kinds;
-    for (int i = 0; i <= int(extra ? encoding_kind::none : encoding_kind::emboss); ++i)
-        kinds.emplace_back(name_of(encoding_kind(i)), encoding_kind(i));
-    add_choice(app, "--encoding", settings.kind, kinds, "what textures hold")->type_name("ENCODING");
-    add_choice<stored_bits>(app, "--bits", settings.bits,
-                            {{"8", stored_bits::eight}, {"16", stored_bits::sixteen}, {"bc4", stored_bits::bc4}},
-                            "bits of what is stored")
-        ->type_name("BITS");
-    app.add_option("--reduce", settings.reduce, "extent of the texture: 1/R of the height map's")
-        ->check(whole_number(1, 64))
-        ->capture_default_str()
-        ->type_name("R");
-    add_choice<bs::slice_fit>(app, "--fit", settings.fit,
-                              {{"point", bs::slice_fit::point},
-                               {"least-squares", bs::slice_fit::least_squares},
-                               {"least-angle", bs::slice_fit::least_angle}},
-                              "slices: their own horizons, or fitted to four times as many (32 at least), for the "
-                              "least squares of what is stored or the least error of the elevation")
-        ->type_name("FIT");
-    add_choice(app, "--bearing-function", settings.function, bearing_function_names, "how the shader measures bearings")
-        ->type_name("FUNCTION");
-    app.add_option_function<std::string>(
-           "--stored",
-           [&settings](const std::string& word) {
-               for (const auto& [name, stored] : quantity_names)
-                   if (name == word) settings.stored = stored;
-           },
-           "quantity that is stored: slope, sine, angle (default: the encoding's own)")
-        ->check(CLI::IsMember({"slope", "sine", "angle"}))
-        ->type_name("QUANTITY");
-    app.add_option("--max-slope", settings.max_slope,
-                   "slope that stands for 1; light above it is never shadowed (default: the steepest, at most 4)")
-        ->check(positive_or_infinite_number())
-        ->type_name("SLOPE");
-    app.add_flag("--mips", settings.mips, "with mip levels; slices become layers of an array");
-    app.add_flag("--array", settings.array, "tangent: slices as layers of an array in place of a volume");
-    app.add_flag("--overlapping", settings.overlapping, "layers: one fetch, 4/3 of the bytes");
-    app.add_flag("--factor-cube", settings.factor_cube, "sine: writes the cube of factors, too");
-    app.add_flag("--published", settings.published, "sine, fourier: as published");
-    app.add_option("--coefficients", settings.coefficients, "fourier: 3, 5, 7 or 9")
-        ->check(CLI::IsMember({3, 5, 7, 9}))
-        ->capture_default_str()
-        ->type_name("N");
-    app.add_flag("--square-root", settings.square_root, "fourier: stores signed square roots");
-    add_choice<bs::normal_y>(app, "--ssbump-y", settings.y, {{"down", bs::normal_y::down}, {"up", bs::normal_y::up}},
-                             "ssbump: hand of the basis")
-        ->type_name("Y");
-    add_choice<bs::mask_occlusion>(app, "--occlusion", settings.occlusion,
-                                   {{"none", bs::mask_occlusion::none},
-                                    {"ambient", bs::mask_occlusion::ambient},
-                                    {"directional", bs::mask_occlusion::directional}},
-                                   "ssbump: what darkens the masks")
-        ->type_name("OCCLUSION");
-}
-
-std::string name_of(encoding_kind kind) {
-    constexpr const char* names[] = {"tangent", "layers", "sine", "fourier", "ssbump", "emboss", "traced", "none"};
-    return names[int(kind)];
-}
 
 std::vector<float> normals_of(const height_samples& samples, const height_source& source, int threads) {
     std::vector<float> planes(3 * bs::required_size(samples.extent, 1));
@@ -443,43 +361,6 @@ encoded encode_heights(const height_samples& samples, const height_source& sourc
         case encoding_kind::none: throw failure("--encoding: " + name_of(settings.kind) + " has no texture");
     }
     return result;
-}
-
-std::string for_shaders(const encoded& map) {
-    return std::visit(
-        []<class Encoding>(const Encoding& e) {
-            std::string words;
-            if constexpr (requires { e.slices; })
-                words += text("; %d slices, %s bearing", e.slices.count, name_of(e.slices.function));
-            if constexpr (std::is_same_v<Encoding, bs::tangent_volume>)
-                words += text(", coordinate = bearing + %.9g", coordinate_offset(e));
-            if constexpr (requires { requires std::is_same_v<decltype(e.scale), bs::horizon_scale>; })
-                words += text("; %s %.6g stands for 1", name_of(e.scale.stored),
-                              double(bs::quantity_of_slope(e.scale.stored, e.scale.max_slope)));
-            if constexpr (std::is_same_v<Encoding, bs::fourier>) words += "; --json has the ranges";
-            return words;
-        },
-        map.how);
-}
-
-std::string json_of(const encoded& map) {
-    constexpr const char* kinds[] = {"flat", "array", "cube", "volume"};
-    std::string json = std::visit([](const auto& e) { return json_of(e); }, map.how) + "\"textures\":[";
-    std::size_t bytes = 0;
-    for (const owned_texture& t : map.textures) {
-        const bs::texture_layout& l = t.layout;
-        json += text(
-            "%s{\"format\":\"%s\",\"kind\":\"%s\",\"width\":%d,\"height\":%d,\"depth\":%d,\"layers\":%d,"
-            "\"mips\":%d,\"offset\":%zu,\"bytes\":%zu}",
-            &t == map.textures.data() ? "" : ",", name_of(l.format), kinds[int(l.kind)], l.extent.x, l.extent.y,
-            l.depth, l.layers, l.mips, bytes, t.bytes.size());
-        bytes += t.bytes.size();
-    }
-    return json + text(
-                      "],\"clamped\":%zu,\"steepest\":%.9g,\"directions\":%d,\"bake_seconds\":%.6f,"
-                      "\"pack_seconds\":%.6f",
-                      map.report.clamped, double(map.report.steepest), map.directions, map.bake_seconds,
-                      map.pack_seconds);
 }
 
 }  // namespace examples

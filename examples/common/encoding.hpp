@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct encoding_settings {
     std::optional<bumpshadow::quantity> stored;
     std::optional<double> max_slope;
     bool mips = false;
+    std::optional<std::pair<double, double>> arc;                                    // tangent: degrees
     bool array = false;                                                              // tangent
     bool overlapping = false;                                                        // layers
     bool published = false;                                                          // sine, fourier

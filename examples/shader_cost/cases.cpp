@@ -31,7 +31,10 @@ const edge centered_above{"centered, light above the surface",
 const edge hard_above{"hard, light above the surface", "    return l >= horizon ? 1.0 : 0.0;\n"};
 
 const std::string direction = "    vec2 v = vec2(light.x, light.y);\n";
+const std::string sine = "    float l = bumpshadow_sine(light);\n";
 const std::string slope = "    float l = bumpshadow_slope(light);\n    horizon *= max_slope;\n";
+
+constexpr const char* angle_of_one = "    horizon *= 1.57079633;\n";
 
 std::string bearing(const std::string& function) {
     return direction + "    float bearing = bumpshadow_bearing_" + function + "(v);\n";
@@ -53,7 +56,6 @@ constexpr const char* fetch_overlapping =
     float horizon = bumpshadow_overlapping_horizon(textureLod(horizons, vec3(uv, at.x), 0.0), at.y);
 )";
 
-constexpr const char* sine = "    float l = bumpshadow_sine(light);\n";
 constexpr const char* both_layers =
     "    vec4 layer0 = textureLod(horizons, vec3(uv, 0.0), 0.0);\n"
     "    vec4 layer1 = textureLod(horizons, vec3(uv, 1.0), 0.0);\n";
@@ -73,12 +75,31 @@ void add_slices(std::vector<shader_case>& all) {
     }
     for (const edge& e : {centered, centered_above, hard, hard_above})
         all.push_back({group, "cubic, " + e.name, volume, "float", bearing("cubic") + fetch_volume + slope + e.code});
+    all.push_back({group, "cubic, sines, soft", volume, "float", bearing("cubic") + fetch_volume + sine + soft.code});
+    all.push_back(
+        {group, "cubic, angles, soft", volume, "float",
+         bearing("cubic") + fetch_volume + "    float l = bumpshadow_angle(light);\n" + angle_of_one + soft.code});
+    all.push_back({group, "cubic, soft, ending with distance", volume, "float",
+                   bearing("cubic") + fetch_volume + slope +
+                       "    float factor = bumpshadow_shadow_soft(l, horizon, k, 1.0);\n"
+                       "    return bumpshadow_shadow_fade(factor, uv.x, some_k, some_offset);\n"});
     std::string uniforms = bearing("cubic") + fetch_volume + slope + soft.code;
     uniforms.replace(uniforms.find("offset)"), 6, "some_offset");
     uniforms.replace(uniforms.find(", k,"), 3, ", some_k");
     all.push_back({group, "cubic, soft, everything in uniforms", volume, "float", uniforms});
     all.push_back({group, "cubic, array of single slices, soft", layers, "float",
                    bearing("cubic") + fetch_tangent_layers + slope + soft.code});
+    // Slices over an arc: the lookups above with another coordinate.
+    std::string arc = fetch_volume, arc_layers = fetch_tangent_layers;
+    arc.replace(arc.find("bumpshadow_volume_coordinate(bearing, offset)"), 45,
+                "bumpshadow_arc_coordinate(bearing, 0.3, 2.0, 0.1)");
+    arc_layers.replace(arc_layers.find("bumpshadow_tangent_layers(bearing, phase, 16.0)"), 47,
+                       "bumpshadow_arc_layers(bearing, 0.3, 32.0, 0.1, 16.0)");
+    all.push_back({group, "cubic, over an arc, soft", volume, "float", bearing("cubic") + arc + slope + soft.code});
+    all.push_back({group, "cubic, over an arc, array of single slices, soft", layers, "float",
+                   bearing("cubic") + arc_layers + slope + soft.code});
+    all.push_back({group, "one slice for a fixed light, soft", one_texture, "float",
+                   "    float horizon = textureLod(map, uv, 0.0).x;\n" + slope + soft.code});
     for (const char* f : {"cubic", "octant"})
         for (const edge& e : {soft, soft_above}) {
             const std::string name = std::string(", ") + f + ", " + e.name;
@@ -97,6 +118,10 @@ void add_eight_channels(std::vector<shader_case>& all) {
             all.push_back({group, std::string(kind) + " cube, sines, " + e.name, layers_and_cube, "float",
                            cube + both_layers + "    bumpshadow_eight factors = bumpshadow_factors_" + kind +
                                "_cube(texel);\n" + with_factors + sine + e.code});
+        all.push_back({group, "biased cube, no structure, sines, " + e.name, layers_and_cube, "float",
+                       cube + both_layers +
+                           "    float horizon = bumpshadow_sine_layers_biased_cube(layer0, layer1, texel);\n" + sine +
+                           e.code});
         all.push_back({group, "no cube, layers chosen, sines, " + e.name, layers, "float",
                        direction + chosen_layers + sine + e.code});
         all.push_back({group, "no cube, layers chosen, slopes, " + e.name, layers, "float",
@@ -163,9 +188,26 @@ void add_ssbump(std::vector<shader_case>& all) {
                    masks + "    return bumpshadow_ssbump_light(masks, bumpshadow_ssbump_weights(light));\n"});
     all.push_back({group, "dynamic light, weights from the vertex shader", one_texture, "float",
                    masks + "    return bumpshadow_ssbump_light(masks, light);\n"});
+    const std::string lit = "    return bumpshadow_ssbump_light(masks, light);\n";
+    all.push_back({group, "dynamic light, masks of the other hand", one_texture, "float",
+                   masks + "    masks = bumpshadow_ssbump_other_hand(masks);\n" + lit});
+    all.push_back({group, "dynamic light, gray detail", two_textures, "float",
+                   masks + "    masks = bumpshadow_ssbump_detail(masks, textureLod(map1, uv, 0.0).x);\n" + lit});
+    all.push_back(
+        {group, "dynamic light, detail masks", two_textures, "float",
+         masks + "    masks = bumpshadow_ssbump_detail_masks(masks, textureLod(map1, uv, 0.0).xyz);\n" + lit});
     all.push_back({group, "normal", one_texture, "vec3", masks + "    return bumpshadow_ssbump_normal(masks);\n"});
     all.push_back({group, "normal in the world", one_texture, "vec3",
                    masks + "    return bumpshadow_ssbump_world_normal(masks, scale0.xyz, offset0.xyz, scale1.xyz);\n"});
+    all.push_back({group, "reflection", one_texture, "vec3",
+                   masks + "    return bumpshadow_reflection(light, bumpshadow_ssbump_normal(masks));\n"});
+    // Axes that the compiler cannot tell to be the same numbers in another order, since each has a factor of its own.
+    all.push_back({group, "vertex: basis in the world", "", "mat3",
+                   R"(    vec3 tangent = light, bitangent = light.yzx, normal = light.zxy;
+    return mat3(bumpshadow_ssbump_world_red(tangent, normal),
+                bumpshadow_ssbump_world_green(tangent, bitangent, normal),
+                bumpshadow_ssbump_world_blue(tangent, bitangent, normal));
+)"});
 }
 
 void add_rest(std::vector<shader_case>& all) {
@@ -180,16 +222,48 @@ void add_rest(std::vector<shader_case>& all) {
     return bumpshadow_emboss_relief(textureLod(map, uv, 0.0).x, inverse);
 )"});
 
+    all.push_back(
+        {"emboss", "base texture in light of a color", two_textures, "vec3",
+         R"(    float inverse = bumpshadow_emboss_inverse(textureLod(map, uv + vec2(light.x, light.y), 0.0).x);
+    float relief = bumpshadow_emboss_relief(textureLod(map, uv, 0.0).x, inverse);
+    return bumpshadow_emboss(relief, textureLod(map1, uv, 0.0).xyz, scale0.xyz);
+)"});
+    all.push_back({"normal map", "three channels", one_texture, "vec3",
+                   "    return bumpshadow_normal(textureLod(map, uv, 0.0).xyz, 1.0);\n"});
+    all.push_back({"normal map", "partial derivatives", one_texture, "vec3",
+                   "    return bumpshadow_normal_of_derivatives(textureLod(map, uv, 0.0).xy, max_slope, 1.0);\n"});
+}
+
+void add_vertices(std::vector<shader_case>& all) {
     const std::string vertex = "bearing and slope a vertex";
     for (const edge& e : {soft, soft_above, hard_above})
         all.push_back(
             {vertex, "pixel: volume, " + e.name, volume, "float",
              "    float horizon = textureLod(horizons, vec3(uv, light.x), 0.0).x;\n    float l = light.y;\n" + e.code});
-    for (const char* f : {"exact", "cubic", "octant"})
+    for (const char* f : {"exact", "quintic", "cubic", "octant", "diamond"})
         all.push_back({vertex, "vertex: bearing and slope, " + std::string(f), "", "vec2",
                        "    return bumpshadow_vertex_bearing_" + std::string(f) + "(light, most);\n"});
     all.push_back(
         {vertex, "vertex: direction and slope", "", "vec3", "    return bumpshadow_vertex_direction(light, most);\n"});
+    all.push_back(
+        {vertex, "vertex: direction and sine", "", "vec3", "    return bumpshadow_vertex_direction_sine(light);\n"});
+    const std::string to_tangent_space =
+        "    light = bumpshadow_to_tangent_space(light, scale0.xyz, offset0.xyz, scale1.xyz);\n";
+    all.push_back({vertex, "vertex: light into tangent space", "", "vec3", to_tangent_space + "    return light;\n"});
+    all.push_back({vertex, "vertex: light into tangent space, bearing and slope, octant", "", "vec2",
+                   to_tangent_space + "    return bumpshadow_vertex_bearing_octant(light, most);\n"});
+    all.push_back(
+        {vertex, "triangle: bearings unwrapped", "", "vec3", "    return bumpshadow_unwrap_bearings(light);\n"});
+    all.push_back({vertex, "triangle: bearings unwrapped, whether they go round", "", "float",
+                   "    return bumpshadow_bearings_go_round(bumpshadow_unwrap_bearings(light)) ? 1.0 : 0.0;\n"});
+    all.push_back({vertex, "vertex: bearing and slope, octant, the bearing twice", "", "vec3",
+                   R"(    vec2 both = bumpshadow_vertex_bearing_octant(light, most);
+    return vec3(bumpshadow_bearing_pair(both.x), both.y);
+)"});
+    all.push_back({vertex, "pixel: volume, one bearing of two, their change given, soft", volume, "float",
+                   "    float bearing = bumpshadow_pick_bearing(light.xy, uv);\n"
+                   "    float horizon = textureLod(horizons, vec3(uv, bearing), 0.0).x;\n    float l = light.z;\n" +
+                       soft.code});
     all.push_back({vertex, "pixel: direction and slope from the vertex, cubic", volume, "float",
                    bearing("cubic") + fetch_volume + "    float l = light.z;\n" + soft.code});
 }
@@ -203,6 +277,7 @@ std::vector<shader_case> snippet_cases() {
     add_fourier(all);
     add_ssbump(all);
     add_rest(all);
+    add_vertices(all);
     return all;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace examples {
 struct shader_case {
     std::string group, name;
     std::string textures;  // declarations, at bindings 0 to 6
-    std::string result;    // type of what is stored: float, vec2 or vec3
+    std::string result;    // type of what is stored: float, vec2, vec3 or mat3
     std::string body;      // from vec2 uv and vec3 light, per thread, and the constants of the harness
 };
 
@@ -26,5 +27,8 @@ struct shader_case {
 // The whole compute shader, with the snippets that the case calls and no others. Throws std::runtime_error where one
 // does not exist.
 [[nodiscard]] std::string compose(const shader_case& one, const shaders::source& snippets);
+
+// Functions of the snippets that no case contains, neither called by it nor by what it calls. Throws as compose() does.
+[[nodiscard]] std::vector<std::string> left_out(std::span<const shader_case> cases, const shaders::source& snippets);
 
 }  // namespace examples

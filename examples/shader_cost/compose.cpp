@@ -46,9 +46,8 @@ void add_with_needs(const shaders::source& all, int index, std::set<int>& chosen
     for (const int need : all.snippets[std::size_t(index)].needs) add_with_needs(all, need, chosen);
 }
 
-}  // namespace
-
-std::string compose(const shader_case& one, const shaders::source& snippets) {
+// Indices of the snippets that a case contains.
+std::set<int> chosen_by(const shader_case& one, const shaders::source& snippets) {
     std::set<int> chosen;
     for (const std::string& name : names_in(one.body)) {
         int index = 0;
@@ -57,9 +56,24 @@ std::string compose(const shader_case& one, const shaders::source& snippets) {
         if (index == count) throw std::runtime_error(one.group + ", " + one.name + ": there is no snippet " + name);
         add_with_needs(snippets, index, chosen);
     }
+    return chosen;
+}
+
+}  // namespace
+
+std::string compose(const shader_case& one, const shaders::source& snippets) {
     std::string code = head + one.textures + "layout(binding = 7) buffer Results { " + one.result + " results[]; };\n";
-    for (const int index : chosen) code += snippets.snippets[std::size_t(index)].code;
+    for (const int index : chosen_by(one, snippets)) code += snippets.snippets[std::size_t(index)].code;
     return code + one.result + " shade(vec2 uv, vec3 light) {\n" + one.body + "}\n" + tail;
+}
+
+std::vector<std::string> left_out(std::span<const shader_case> cases, const shaders::source& snippets) {
+    std::set<int> chosen;
+    for (const shader_case& one : cases) chosen.merge(chosen_by(one, snippets));
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < snippets.snippets.size(); ++i)
+        if (!chosen.contains(int(i))) names.push_back(snippets.snippets[i].name);
+    return names;
 }
 
 }  // namespace examples

@@ -39,14 +39,15 @@ struct compiler::state {
         if (instance != VK_NULL_HANDLE) vkDestroyInstance(instance, nullptr);
     }
 
-    void open(const family& target) {
+    void open(const family& target, const std::string& icd) {
         VkApplicationInfo application{};
         application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
         application.apiVersion = VK_API_VERSION_1_2;
         VkInstanceCreateInfo instance_info{};
         instance_info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
         instance_info.pApplicationInfo = &application;
-        require(vkCreateInstance(&instance_info, nullptr, &instance), "vkCreateInstance");
+        if (const VkResult made = vkCreateInstance(&instance_info, nullptr, &instance); made != VK_SUCCESS)
+            throw failure(format("no Vulkan driver loads from %s (%d)", icd.c_str(), int(made)));
         std::uint32_t count = 1;
         VkPhysicalDevice physical = VK_NULL_HANDLE;
         const VkResult found = vkEnumeratePhysicalDevices(instance, &count, &physical);
@@ -55,7 +56,7 @@ struct compiler::state {
         VkPhysicalDeviceProperties about{};
         vkGetPhysicalDeviceProperties(physical, &about);
         constexpr std::uint32_t amd = 0x1002;
-        if (about.vendorID != amd) throw failure(std::string("this Vulkan driver is not RADV: ") + about.deviceName);
+        if (about.vendorID != amd) throw failure("the Vulkan driver of " + icd + " is not RADV: " + about.deviceName);
 
         const float priority = 1.0f;
         VkDeviceQueueCreateInfo queue{};
@@ -133,7 +134,7 @@ compiler::compiler(const family& target, const std::string& icd) : state_(std::m
     setenv("VK_DRIVER_FILES", icd.c_str(), 1);
     setenv("RADV_FORCE_FAMILY", target.name.c_str(), 1);
     setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
-    state_->open(target);
+    state_->open(target, icd);
 }
 
 compiler::~compiler() = default;

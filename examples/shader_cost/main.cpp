@@ -46,20 +46,26 @@ void work(const arguments& arguments) {
     std::vector<shader_case> cases = yardsticks();
     for (shader_case& one : snippet_cases()) cases.push_back(std::move(one));
     if (!arguments.show.empty()) {
-        for (const shader_case& one : cases)
-            if (one.group + ", " + one.name == arguments.show) std::fputs(compose(one, snippets).c_str(), stdout);
+        const auto at = std::find_if(cases.begin(), cases.end(), [&](const shader_case& one) {
+            return one.group + ", " + one.name == arguments.show;
+        });
+        if (at == cases.end()) throw failure("--show: no shader is named " + arguments.show);
+        std::fputs(compose(*at, snippets).c_str(), stdout);
         return flush_stdout();
     }
+    const std::vector<std::string> missed = left_out(cases, snippets);
+    if (arguments.check && !missed.empty()) throw failure("no row has the function " + missed.front());
 
     std::optional<output_file> json;
     if (!arguments.json.empty()) json.emplace(arguments.json);
     const std::string icd = arguments.icd.empty() ? find_icd() : arguments.icd;
+    { const compiler first(families.front(), icd); }  // a driver that does not serve is known before any work
     const glsl_compiler glslang(arguments.glslang);
     const auto compile = [&](const shader_case& one) {
         return glslang.compile(one.group + ", " + one.name, compose(one, snippets));
     };
     std::map<std::string, std::vector<std::uint32_t>> empty;  // by type of result
-    for (const char* result : {"float", "vec2", "vec3"}) empty[result] = compile(empty_case(result));
+    for (const char* result : {"float", "vec2", "vec3", "mat3"}) empty[result] = compile(empty_case(result));
     std::vector<measured_case> all;
     std::vector<std::vector<std::uint32_t>> codes;
     for (const shader_case& one : cases) {
@@ -87,11 +93,10 @@ void work(const arguments& arguments) {
                     empty_costs[f].inverse_throughput, empty_costs[f].latency, table_of(all, f).c_str());
     const std::vector<cost_bar> bars = bars_of(all, 0);
     std::printf("\n");
-    for (const cost_bar& bar : bars)
-        std::printf("%s: %s: %d, at most %d (%s)\n", bar.held() ? "held" : "NOT held", bar.what.c_str(), bar.value,
-                    bar.limit, bar.name.c_str());
+    for (const cost_bar& bar : bars) std::printf("%s\n", text_of(bar).c_str());
+    for (const std::string& name : missed) std::printf("no row has the function %s\n", name.c_str());
     if (json) {
-        json->write(json_of(families, empty_costs, all, bars));
+        json->write(json_of(families, empty_costs, all, bars, missed));
         json->commit();
     }
     flush_stdout();
@@ -120,7 +125,8 @@ int main(int argc, char** argv) try {
     app.add_option("--show", arguments.show, "only print the source of one shader, named as in the table")
         ->type_name("NAME");
     app.add_option("--json", arguments.json, "write all figures to this file, too")->type_name("FILE");
-    app.add_flag("--check", arguments.check, "fail where a bar does not hold");
+    app.add_flag("--check", arguments.check,
+                 "fail where a bar does not hold, or no row has a function of the snippets");
     return run_program(app, argc, argv, [&] { work(arguments); });
 } catch (const std::exception& error) {
     std::fprintf(stderr, "shader_cost: %s\n", error.what());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,11 +15,12 @@ struct measured_case {
     std::vector<cost> costs;  // one a family; all but registers net of the empty shader
 };
 
-// A bar that the project sets itself, in inverse throughput on navi21.
+// A bar that the project sets itself, in inverse throughput on navi21; without a limit only shown beside the others.
 struct cost_bar {
     std::string what, name;  // name of the case: "group, name"
-    int limit = 0, value = 0;
-    [[nodiscard]] bool held() const { return value <= limit; }
+    std::optional<int> limit;
+    int value = 0, instructions = 0;
+    [[nodiscard]] bool held() const { return !limit || value <= *limit; }
 };
 
 // navi21: index among the families.
@@ -27,8 +29,12 @@ struct cost_bar {
 // A table in Markdown for one family.
 [[nodiscard]] std::string table_of(std::span<const measured_case> all, std::size_t family_index);
 
-// Everything as one JSON object.
+// A line that says whether it held.
+[[nodiscard]] std::string text_of(const cost_bar& bar);
+
+// Everything as one JSON object. left_out: functions that no case calls.
 [[nodiscard]] std::string json_of(std::span<const family> families, std::span<const cost> empty,
-                                  std::span<const measured_case> all, std::span<const cost_bar> bars);
+                                  std::span<const measured_case> all, std::span<const cost_bar> bars,
+                                  std::span<const std::string> left_out);
 
 }  // namespace examples

@@ -23,8 +23,8 @@ constexpr const char* lengyel = R"(    vec3 L = normalize(light);
     return clamp((L.z - (s0 + s1)) * 8.0 + 1.0, 0.0, 1.0);
 )";
 
-// Forsyth, Self-shadowing Bumpmap, section 4.1, with the slope of section 4 and the edge of the listing above.
-constexpr const char* forsyth = R"(    float inverse = inversesqrt(dot(light.xy, light.xy));
+// Forsyth, Self-shadowing Bumpmap, section 4.1, and what the slope of section 4 needs.
+constexpr const char* forsyth_bearing = R"(    float inverse = inversesqrt(dot(light.xy, light.xy));
     vec2 vec = light.xy * inverse;
     float angle;
     if (vec.x >= vec.y) {
@@ -34,8 +34,16 @@ constexpr const char* forsyth = R"(    float inverse = inversesqrt(dot(light.xy,
         if (vec.x >= -vec.y) angle = vec.x * (-0.25 / 1.414) + 0.0 + (-0.707 * (-0.25 / 1.414));
         else angle = vec.y * (-0.25 / 1.414) + 0.25 + (-0.707 * (-0.25 / 1.414));
     }
-    float horizon = textureLod(horizons, vec3(uv, angle + offset), 0.0).x;
+)";
+// A pixel, with the edge of the listing above.
+constexpr const char* forsyth_soft = R"(    float horizon = textureLod(horizons, vec3(uv, angle + offset), 0.0).x;
     return clamp((light.z * inverse - horizon * max_slope) * 8.0 + 1.0, 0.0, 1.0);
+)";
+// A vertex; the slope is cut, since it "can be clamped quite early".
+constexpr const char* forsyth_vertex = "    return vec2(angle + offset, clamp(light.z * inverse, -most, most));\n";
+// Section 4.2, with the horizon stored around 0.5: what "sub" and "cnd" do.
+constexpr const char* forsyth_pixel = R"(    float horizon = textureLod(horizons, vec3(uv, light.x), 0.0).x;
+    return light.y - (horizon - 0.5) > 0.5 ? 1.0 : 0.0;
 )";
 
 constexpr const char* arc_tangent = R"(    float slope = light.z * inversesqrt(dot(light.xy, light.xy));
@@ -85,6 +93,10 @@ constexpr const char* product = R"(    vec3 masks = textureLod(map, uv, 0.0).xyz
     return dot(masks, clamp(d, 0.0, 1.0));
 )";
 
+constexpr const char* normal_reflection = R"(    vec3 n = normalize(textureLod(map, uv, 0.0).xyz * 2.0 - 1.0);
+    return reflect(-light, n);
+)";
+
 constexpr const char* normal_light = R"(    vec3 n = textureLod(map, uv, 0.0).xyz * 2.0 - 1.0;
     return clamp(dot(n, light), 0.0, 1.0);
 )";
@@ -99,7 +111,8 @@ std::string fourier_with(const std::string& light) {
 shader_case empty_case(const std::string& result) {
     const char* body = result == "float"  ? "    return uv.x + uv.y + light.x + light.y + light.z;\n"
                        : result == "vec2" ? "    return uv + light.xy + light.z;\n"
-                                          : "    return light + vec3(uv, 0.0);\n";
+                       : result == "vec3" ? "    return light + vec3(uv, 0.0);\n"
+                                          : "    return mat3(light, light.yzx, light.zxy);\n";
     return {"harness", "empty, " + result, "", result, body};
 }
 
@@ -107,12 +120,16 @@ std::vector<shader_case> yardsticks() {
     const std::string group = "yardstick";
     return {
         {group, "Lengyel, listing 5.1", layers_and_cube, "float", lengyel},
-        {group, "Forsyth, bearing as published", volume, "float", forsyth},
+        {group, "Forsyth, bearing as published", volume, "float", std::string(forsyth_bearing) + forsyth_soft},
+        {group, "Forsyth, vertex: bearing as published, slope", "", "vec2",
+         std::string(forsyth_bearing) + forsyth_vertex},
+        {group, "Forsyth, pixel: sub and cnd", volume, "float", forsyth_pixel},
         {group, "arc tangent and volume", volume, "float", arc_tangent},
         {group, "Fourier, 5, as published", two_textures, "float", fourier_with("light.z")},
         {group, "Fourier, 5, with the unit vector that is meant", two_textures, "float", fourier_with("n.z")},
         {group, "ray march, 16 steps", one_texture, "float", ray_march},
         {group, "normal map, one dynamic light", one_texture, "float", normal_light},
+        {group, "normal map, reflection", one_texture, "vec3", normal_reflection},
         {group, "normal map, three lightmaps", normal_and_lightmaps, "vec3", radiosity},
         {group, "SSBump, one dynamic light, 3 x 3 product", one_texture, "float", product},
     };

@@ -59,8 +59,11 @@ int main(int argc, char** argv) try {
     add_choice<decoder>(app, "--decoder", arguments.chosen.decode,
                         {{"volume", decoder::volume},
                          {"slices", decoder::slices},
+                         {"arc", decoder::arc},
+                         {"arc-slices", decoder::arc_slices},
                          {"grouped", decoder::grouped},
                          {"overlapping", decoder::overlapping},
+                         {"flat", decoder::flat},
                          {"sine-layers", decoder::sine_layers},
                          {"sine-layers-cube", decoder::sine_layers_cube},
                          {"sine-layers-half", decoder::sine_layers_half},
@@ -89,6 +92,8 @@ int main(int argc, char** argv) try {
                      "edge of the shadow; above: for lights that never shine from below the surface")
         ->type_name("EDGE");
     app.add_flag("--square-root", arguments.chosen.square_root, "fourier: signed square roots are stored");
+    app.add_flag("--vertex", arguments.chosen.vertex,
+                 "volume, slices, arc, arc-slices, grouped, overlapping: bearing and level a vertex at a time, too");
     app.add_option("NAME", arguments.names, "functions to print instead, with all that they call")
         ->type_name("NAME...");
     app.add_flag("--list", arguments.list, "print the names of all snippets");

@@ -42,6 +42,22 @@ words out/a.dds 76 8 32 $((0x20000)) 0 8 255 0 0 0
 words out/a.dds 108 2 $((0x1008)) $((0x200000))
 holds out/a.dds 128 $volume$none
 
+# Light from one bearing: its slice alone. From half a turn: a slice at each end, and a bearing b, turned on by a quarter
+# so that fract wraps on the far side, lies 2 (fract(b + 1/4) - 1/4) slices from the first one.
+run in/gray8.png -o out/a.raw $step --encoding tangent --arc 0 0
+holds out/a.raw 0 $volume
+[ "$(bytes out/a.raw)" -eq 8 ] || fail "one bearing took $(bytes out/a.raw) bytes"
+run in/gray8.png -o out/a.raw $step --encoding tangent --arc -180 -180 --array --mips
+holds out/a.raw 0 $none
+grep -qF '"bearings":1,"phase":0.5,"arc":0,' stdout || fail "JSON of one bearing: $(cat stdout)"
+grep -qF '"kind":"flat"' stdout || fail "JSON of one bearing: $(cat stdout)"
+run in/gray8.png -o out/a.raw $step --encoding tangent --arc 0 180 --bearings 2
+holds out/a.raw 0 $volume$none
+wanted='"coordinate_start":-0.25,"coordinate_scale":1,"coordinate_offset":0,'
+grep -qF "$wanted" stdout || fail "JSON of an arc: $(cat stdout)"
+run in/gray8.png -o out/a.raw $step --encoding tangent --arc 0 180 --bearings 2 --array
+grep -qF '"coordinate_start":-0.25,"coordinate_scale":2,"coordinate_offset":-0.5,' stdout || fail "JSON: $(cat stdout)"
+
 # 16 bits: 16384, 21845, 32768, 65535.
 run in/gray8.png -o out/a.raw $step --encoding tangent --bearings 2 --bits 16
 holds out/a.raw 0 004055550080ffff$none$none$none
@@ -73,6 +89,9 @@ sized $((64 * 64 * 8)) --encoding tangent --bearings 16 --bits bc4
 sized $((32 * 32 * 8)) --encoding tangent --reduce 2
 sized $((64 * 64 * 8 + 32 * 32 * 8)) --encoding tangent --mips
 sized $((64 * 64 * 8 + 32 * 32 * 8)) --encoding tangent --array --mips
+sized $((64 * 64 * 5)) --encoding tangent --arc 90 270
+sized $((64 * 64 * 3)) --encoding tangent --arc 350 370 --bearings 3
+sized $((64 * 64)) --encoding tangent --arc 0 90 --bearings 1
 sized $((64 * 64 * 16)) --encoding layers --bearings 16
 sized $((64 * 64 * 16)) --encoding layers --bearings 12 --overlapping
 sized $((64 * 64 * 8)) --encoding sine
@@ -122,6 +141,12 @@ rm -f out/*
 refuse 1 'the extension has to be .dds or .raw' in/block.png -o out/a.png --encoding tangent
 refuse 1 '--bearings is not for --encoding emboss' in/block.png -o out/a.dds --encoding emboss --bearings 4
 refuse 1 '--array is not for --encoding layers, but for tangent' in/block.png -o out/a.dds --encoding layers --array
+refuse 1 '--arc is not for --encoding layers, but for tangent' in/block.png -o out/a.dds --encoding layers --arc 0 90
+refuse 1 '--arc: 90 0 is given' in/block.png -o out/a.dds --arc 90 0
+refuse 1 '--arc: 0 360 is given' in/block.png -o out/a.dds --arc 0 360
+refuse 1 'arc is 0 but has to be positive' in/block.png -o out/a.dds --arc 10 10 --bearings 4
+refuse 2 '--arc' in/block.png -o out/a.dds --arc 0 inf
+refuse 2 '--arc' in/block.png -o out/a.dds --arc 10
 refuse 1 'slices is 6 but has to be a multiple of 4' in/block.png -o out/a.dds --encoding layers --bearings 6
 refuse 1 '--bearings: sine layers have 8' in/block.png -o out/a.dds --encoding sine --bearings 4
 refuse 1 '--bits bc4 is not for' in/block.png -o out/a.dds --encoding layers --bits bc4

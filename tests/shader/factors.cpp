@@ -89,6 +89,15 @@ TEST_CASE("factors: bytes of the two forms of a cube") {
     }
 }
 
+TEST_CASE("factors: a biased cube without the structure") {
+    // 255, 26, 77 and 166 of 255 stand for 1, -102/127, -51/127 and 38/127.
+    const vec4 texel(1.0f, 26.0f / 255.0f, 77.0f / 255.0f, 166.0f / 255.0f);
+    const double wanted = (127 * 0.1 + 38 * 0.4 + 102 * 0.6 + 51 * 0.7) / 127.0;
+    CHECK(double(bumpshadow_sine_layers_biased_cube(layer0, layer1, texel)) == doctest::Approx(wanted).epsilon(1e-6));
+    CHECK(bumpshadow_sine_layers_biased_cube(layer0, layer1, texel) ==
+          bumpshadow_sine_layers_factors(layer0, layer1, bumpshadow_factors_biased_cube(texel)));
+}
+
 TEST_CASE("factors: without a cube they add up to 1 in every direction") {
     double worst = 0.0, apart = 0.0;
     for (const double length : {1e-6, 0.3, 1.0, 1e6})

@@ -88,6 +88,126 @@ TEST_CASE("shader shadow factors") {
     CHECK(bumpshadow_shadow_soft(1e6f, 0.5f, infinity, 0.5f) == 1.0f);
 }
 
+namespace {
+
+constexpr float largest = std::numeric_limits<float>::max(), denormal = 1e-40f;
+
+// Zero, too long and too short for their squares, straight up and down, in the surface, below it.
+const vec3 bad_lights[] = {
+    {0.0f, 0.0f, 0.0f},
+    {-0.0f, -0.0f, -0.0f},
+    {3e4f, -2e4f, 7e5f},
+    {1e30f, 1e30f, 1e30f},
+    {largest, 0.0f, largest},
+    {-largest, largest, -largest},
+    {denormal, -denormal, denormal},
+    {denormal, 0.0f, 1.0f},
+    {0.0f, 0.0f, 1.0f},
+    {0.0f, 0.0f, largest},
+    {0.0f, 0.0f, denormal},
+    {0.0f, 0.0f, -1.0f},
+    {0.0f, 0.0f, -largest},
+    {1.0f, 0.0f, 0.0f},
+    {0.0f, -1.0f, -denormal},
+    {-0.6f, 0.0f, -0.8f},
+};
+constexpr float all_k[] = {0.0f, denormal, 1.0f, 8.0f, 1e30f, largest, infinity};
+
+using level_function = float (*)(vec3);
+constexpr level_function levels[] = {shader::bumpshadow_slope, shader::bumpshadow_sine, shader::bumpshadow_angle};
+
+// What the head of the paste files has a level divided by.
+float divisor_of(float max_slope) { return std::max(max_slope, 1e-6f); }
+
+bool is_factor(float v) { return v >= 0.0f && v <= 1.0f; }  // not so for what is not a number
+
+// Every form of the factor, c of 1 and 0.5.
+bool are_factors(float level, float horizon, float k) {
+    bool good = is_factor(shader::bumpshadow_shadow_hard(level, horizon));
+    for (const float c : {1.0f, 0.5f}) {
+        const float soft = shader::bumpshadow_shadow_soft(level, horizon, k, c);
+        const float above = shader::bumpshadow_shadow_soft_above(level, horizon, k, c);
+        good = good && is_factor(soft) && is_factor(above);
+        for (const float distance : {0.0f, 5.0f, infinity})
+            for (const float end : {0.0f, 5.0f, infinity})
+                good = good && is_factor(shader::bumpshadow_shadow_fade(soft, distance, 5.0f, end));
+    }
+    return good;
+}
+
+}  // namespace
+
+TEST_CASE("shader shadow factors are finite and in [0, 1] for every input") {
+    const float none = 0.0f, undefined = none / none;
+    for (const vec3 light : bad_lights)
+        for (const level_function level : levels)
+            for (const float max_slope : {0.0f, denormal, 4.0f})
+                for (const float horizon : {0.0f, 0.3f, 1.0f})
+                    for (const float k : all_k) {
+                        CAPTURE(light.x);
+                        CAPTURE(light.z);
+                        CAPTURE(max_slope);
+                        CAPTURE(k);
+                        CHECK(are_factors(level(light) / divisor_of(max_slope), horizon, k));
+                        CHECK(are_factors(level(light) / max_slope, horizon, k));  // 1 / 0 and 0 / 0
+                        CHECK(are_factors(level(light), horizon * max_slope, k));
+                    }
+    for (const float level : {infinity, -infinity, undefined, largest, 0.5f})
+        for (const float horizon : {infinity, -infinity, undefined, 0.0f})
+            for (const float k : all_k) CHECK(are_factors(level, horizon, k));
+    for (const float k : all_k) {
+        const bool straight_up = k > 0.0f;
+        for (const float c : {1.0f, 0.5f}) {
+            CHECK(shader::bumpshadow_shadow_soft(infinity, 0.7f, k, c) == (straight_up ? 1.0f : 0.0f));
+            CHECK(shader::bumpshadow_shadow_soft(undefined, 0.7f, k, c) == 0.0f);
+            CHECK(shader::bumpshadow_shadow_soft_above(undefined, 0.7f, k, c) == 0.0f);
+        }
+    }
+    CHECK(shader::bumpshadow_shadow_hard(infinity, 0.7f) == 1.0f);
+    CHECK(shader::bumpshadow_shadow_hard(undefined, 0.7f) == 0.0f);
+}
+
+// Its max_slope is 0, and so is all that its texture holds.
+TEST_CASE("shader: a flat map is lit from above, in its plane as c says, and not from below") {
+    const float divisor = divisor_of(0.0f);
+    for (const level_function level : levels)
+        for (const float k : {1.0f, 8.0f, infinity})
+            for (const float c : {1.0f, 0.5f}) {
+                const auto factor = [&](vec3 light) {
+                    return shader::bumpshadow_shadow_soft(level(light) / divisor, 0.0f, k, c);
+                };
+                for (const vec3 up : {vec3(0, 0, 1), vec3(0, 0, 1e15f), vec3(3, -4, 0.01f), vec3(-1e-6f, 0, 1e-6f)})
+                    CHECK(factor(up) == 1.0f);
+                for (const vec3 plane : {vec3(0, 0, 0), vec3(1, 0, 0), vec3(-1e10f, 1e10f, 0)})
+                    CHECK(factor(plane) == c);
+                for (const vec3 down : {vec3(0, 0, -1), vec3(1, 2, -0.01f)}) CHECK(factor(down) == 0.0f);
+            }
+}
+
+TEST_CASE("shader bearings and decoders are finite for every light") {
+    constexpr float (*bearings[])(vec2) = {shader::bumpshadow_bearing_exact, shader::bumpshadow_bearing_quintic,
+                                           shader::bumpshadow_bearing_cubic, shader::bumpshadow_bearing_octant,
+                                           shader::bumpshadow_bearing_diamond};
+    const glm::vec4 low(0.1f, 0.2f, 0.3f, 0.4f), high(0.5f, 0.6f, 0.7f, 0.8f);
+    for (const vec3 light : bad_lights) {
+        CAPTURE(light.x);
+        CAPTURE(light.y);
+        const vec2 v(light.x, light.y);
+        for (const auto bearing : bearings) {
+            const float b = bearing(v);
+            CHECK((b >= -0.1250001f && b <= 0.875f));
+            const vec3 layers = shader::bumpshadow_tangent_layers(b, 0.0f, 16.0f);
+            CHECK((layers.x >= 0.0f && layers.x < 16.0f && layers.y >= 0.0f && layers.y < 16.0f));
+            CHECK(is_factor(layers.z));
+        }
+        CHECK(is_factor(shader::bumpshadow_sine_layers(low, high, v)));
+        CHECK(is_factor(shader::bumpshadow_sine_half(low, high.x, v)));
+        CHECK(is_factor(shader::bumpshadow_sine_layers_factors(low, high, shader::bumpshadow_factors(v))));
+        const float series = shader::bumpshadow_fourier_5(low, 0.5f, shader::bumpshadow_fourier_direction(v));
+        CHECK((series >= -0.5f && series <= 1.5f));
+    }
+}
+
 // The published pixel shader compares by `sub r0.a, v0, t2_bias` and `cnd` (greater than 0.5). Its normal comes from
 // t0, which is the diffuse map; t1, the normal map, is meant.
 TEST_CASE("shader: the published comparison of light and horizon") {

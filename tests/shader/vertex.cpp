@@ -38,6 +38,21 @@ TEST_CASE("bearing and slope at a vertex") {
     CHECK(bumpshadow_vertex_bearing_octant(vec3(-3, -3, 0), 8.0f).x == doctest::Approx(0.625));
     for (int i = 0; i < 40; ++i)
         CHECK(apart(double(bumpshadow_vertex_bearing_exact(light_at(i / 40.0, 30), 8.0f).x), i / 40.0) < 1e-6);
+    // On an axis and on a diagonal all bearing functions agree.
+    for (int i = 0; i < 8; ++i) {
+        const vec3 light = light_at(i / 8.0, 60);
+        for (const vec2 b :
+             {bumpshadow_vertex_bearing_exact(light, 8.0f), bumpshadow_vertex_bearing_quintic(light, 8.0f),
+              bumpshadow_vertex_bearing_cubic(light, 8.0f), bumpshadow_vertex_bearing_octant(light, 8.0f),
+              bumpshadow_vertex_bearing_diamond(light, 8.0f)}) {
+            CHECK(apart(double(b.x), i / 8.0) < 1e-4);
+            CHECK(double(b.y) == doctest::Approx(std::sqrt(3.0)));
+        }
+    }
+    // The octant function puts 22.5 degrees at sin(22.5) / 8 sin(45) of a turn, the diamond one at 1 / 4 (1 +
+    // cot 22.5).
+    CHECK(double(bumpshadow_vertex_bearing_octant(light_at(1 / 16.0, 0), 8.0f).x) == doctest::Approx(0.06764951));
+    CHECK(double(bumpshadow_vertex_bearing_diamond(light_at(1 / 16.0, 0), 8.0f).x) == doctest::Approx(0.07322330));
     CHECK(bumpshadow_vertex_slope(light_at(0.1, 45), 8.0f) == doctest::Approx(1.0));
     CHECK(bumpshadow_vertex_slope(light_at(0.1, -45), 8.0f) == doctest::Approx(-1.0));
     CHECK(bumpshadow_vertex_slope(light_at(0.1, 89), 8.0f) == 8.0f);
@@ -51,7 +66,13 @@ TEST_CASE("bearing and slope at a vertex") {
         CHECK(std::isfinite(d.x));
         CHECK(std::isfinite(d.y));
         CHECK(std::isfinite(d.z));
+        const vec3 s = bumpshadow_vertex_direction_sine(light);
+        CHECK(s == vec3(d.x, d.y, light.z));
     }
+    const vec3 sines = bumpshadow_vertex_direction_sine(7.0f * light_at(0.3, 30));
+    CHECK(double(sines.x) == doctest::Approx(std::cos(0.6 * std::numbers::pi)));
+    CHECK(double(sines.y) == doctest::Approx(std::sin(0.6 * std::numbers::pi)));
+    CHECK(double(sines.z) == doctest::Approx(0.5));
     CHECK(bumpshadow_vertex_direction(vec3(0, 0, 1), 8.0f) == vec3(0, 0, 8));
     const vec3 d = bumpshadow_vertex_direction(vec3(3, -4, 10), 8.0f);
     CHECK(d.x == doctest::Approx(0.6));

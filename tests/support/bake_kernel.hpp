@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <deque>
 #include <limits>
 #include <span>
 #include <string>
@@ -100,6 +101,45 @@ struct trial {
         const bool joint = int(x) % 12 < 2 || int(y) % 9 < 2;
         return joint ? 0.0f : heights[j][i];
     });
+}
+
+constexpr float hole = -1e37f;
+
+// What maps come with besides heights, with an edge mode: sizes, scale and datum, radii, holes, rows that lie apart;
+// and all of these at once.
+[[nodiscard]] inline std::deque<trial> unusual(bumpshadow::edge_mode edge) {
+    const std::vector<glm::dvec2> directions = shapes::directions(8, 0.02);
+    const auto with_holes = [](shapes::field<float> field) {
+        shapes::noise source(4);
+        for (float& height : field.samples)
+            if (source.uniform() < 0.02) height = hole;
+        for (int y = 20; y < 40; ++y)
+            for (int x = 30; x < 50; ++x) field.at(x, y) = hole;
+        return field;
+    };
+    std::deque<trial> all;
+    trial& sized = all.emplace_back("texels of 0.5 x 0.8", towers({80, 72}, 5), edge, directions);
+    sized.heights.texel_size = {0.5, 0.8};
+    sized.heights.height_scale = 0.3;
+    sized.heights.datum = 0.25;
+
+    shapes::field<float> high = towers({80, 72}, 5);
+    for (float& height : high.samples) height += 1000.0f;
+    all.emplace_back("far from zero", std::move(high), edge, directions).heights.datum = 1000.0;
+
+    all.emplace_back("radius 30", towers({80, 72}, 5), edge, directions).options.radius = 30.0;
+    all.emplace_back("radius 5", towers({80, 72}, 5), edge, directions).options.radius = 5.0;
+    all.emplace_back("holes", with_holes(towers({80, 72}, 6)), edge, directions).heights.no_data = hole;
+    all.emplace_back("rows apart", towers({80, 72}, 2), edge, directions).heights.extent.x = 67;
+
+    trial& every = all.emplace_back("all at once", with_holes(stones({80, 72}, 7)), edge, directions, 24);
+    every.heights.extent.x = 67;
+    every.heights.no_data = hole;
+    every.heights.texel_size = {1.5, 1.1};
+    every.heights.height_scale = 2.5;
+    every.heights.datum = -3.0;
+    every.options.radius = 45.0;
+    return all;
 }
 
 // A plan that owns its memory.

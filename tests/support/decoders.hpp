@@ -35,6 +35,19 @@ struct use {
          true,
          "bumpshadow_tangent_horizon(value.x, value.y, "
          "bumpshadow_tangent_layers(bumpshadow_bearing(vec2(light.x, light.y)), 0.0f, 16.0f).z)"},
+        {decoder::arc,
+         "arc",
+         {"bumpshadow_arc_coordinate"},
+         true,
+         true,
+         "value.x * bumpshadow_arc_coordinate(bumpshadow_bearing(vec2(light.x, light.y)), -0.25f, 1.6f, -0.3f)"},
+        {decoder::arc_slices,
+         "arc, slices",
+         {"bumpshadow_arc_layers", "bumpshadow_tangent_horizon"},
+         true,
+         true,
+         "bumpshadow_tangent_horizon(value.x, value.y, "
+         "bumpshadow_arc_layers(bumpshadow_bearing(vec2(light.x, light.y)), -0.25f, 8.0f, -2.0f, 5.0f).z)"},
         {decoder::grouped,
          "grouped",
          {"bumpshadow_slice_position", "bumpshadow_grouped_layers", "bumpshadow_grouped_horizon"},
@@ -49,6 +62,7 @@ struct use {
          true,
          "bumpshadow_overlapping_horizon(value, bumpshadow_overlapping_layer(bumpshadow_slice_position("
          "bumpshadow_bearing(vec2(light.x, light.y)), 0.0f, 12.0f)).y)"},
+        {decoder::flat, "flat", {}, false, true, "value.x"},
         {decoder::sine_layers,
          "sine layers",
          {"bumpshadow_sine_layers"},
@@ -57,10 +71,10 @@ struct use {
          "bumpshadow_sine_layers(value, value, vec2(light.x, light.y))"},
         {decoder::sine_layers_cube,
          "sine layers, cube",
-         {"bumpshadow_factors_biased_cube", "bumpshadow_sine_layers_factors"},
+         {"bumpshadow_sine_layers_biased_cube"},
          false,
          true,
-         "bumpshadow_sine_layers_factors(value, value, bumpshadow_factors_biased_cube(value))"},
+         "bumpshadow_sine_layers_biased_cube(value, value, value)"},
         {decoder::sine_layers_half,
          "sine layers, half",
          {"bumpshadow_sine_first_layer", "bumpshadow_sine_half"},
@@ -140,6 +154,9 @@ struct use {
         roots.push_back(replaced(entry, "ROOT", chosen.square_root ? "root_" : ""));
     if (chosen.square_root && has_constant_texture(u.decode)) roots.emplace_back("bumpshadow_fourier_root_constant");
     if (u.bearing) roots.emplace_back("bumpshadow_bearing");
+    if (u.bearing && chosen.vertex)
+        roots.insert(roots.end(), {"bumpshadow_vertex_bearing", "bumpshadow_to_tangent_space",
+                                   "bumpshadow_bearing_pair", "bumpshadow_pick_bearing"});
     if (u.shadow) roots.insert(roots.end(), {"bumpshadow_level", "bumpshadow_shadow"});
     return roots;
 }
@@ -150,7 +167,12 @@ struct use {
                                                     : "(value.x * value.y + value.z)";
     const std::string horizon =
         replaced(replaced(u.horizon, "ROOT", chosen.square_root ? "root_" : ""), "CONSTANT", constant);
-    return "    float horizon = " + horizon +
+    const std::string vertex = u.bearing && chosen.vertex
+                                   ? " * bumpshadow_pick_bearing(bumpshadow_bearing_pair(bumpshadow_vertex_bearing("
+                                     "bumpshadow_to_tangent_space(light, light, light, light), 4.0f).x), "
+                                     "vec2(value.x, value.y))"
+                                   : "";
+    return "    float horizon = " + horizon + vertex +
            ";\n    result = " + (u.shadow ? "bumpshadow_shadow(bumpshadow_level(light), horizon, 8.0f)" : "horizon") +
            ";\n";
 }

@@ -35,7 +35,7 @@ namespace scan {
     return tokens;
 }
 
-enum class kind : unsigned char { macro, function, structure, variable };
+enum class kind : unsigned char { macro, function, structure, variable, block };
 
 struct definition {
     kind what;
@@ -43,7 +43,8 @@ struct definition {
     std::vector<std::string> tokens;  // all of it
 };
 
-// What text defines outside of functions, in its order; all branches of #if count.
+// What text defines outside of functions, in its order; all branches of #if count. What a block of GLSL or a cbuffer
+// holds counts as variables.
 [[nodiscard]] inline std::vector<definition> definitions_of(std::string_view text) {
     std::vector<definition> found;
     std::string code;
@@ -64,10 +65,19 @@ struct definition {
     std::vector<std::string> statement;
     const auto close = [&] {
         const auto at = [&](const char* token) { return std::find(statement.begin(), statement.end(), token); };
-        if (statement.size() < 2) {
-            // The semicolon after a structure.
+        // What is said about what follows: layout(...), [...].
+        while (!statement.empty() && (statement[0] == "layout" || statement[0] == "["))
+            statement.erase(statement.begin(), at(statement[0] == "[" ? "]" : ")") + 1);
+        const auto open = at("{");
+        if (statement.size() < 2 || statement[0] == "precision" || statement[0] == "in") {
+            // Nothing that has a name; the semicolon after a structure.
         } else if (statement[0] == "struct") {
             found.push_back({kind::structure, statement[1], statement});
+        } else if (statement[0] == "cbuffer" || (open < at("(") && open < at("="))) {
+            found.push_back({kind::block, statement[0] == "cbuffer" ? statement[1] : *(open - 1), statement});
+            for (auto i = open + 1; i < statement.end(); ++i)
+                if ((*i == ";" || *i == "," || *i == "[") && *(i - 1) != "]")
+                    found.push_back({kind::variable, *(i - 1), {*(i - 1)}});
         } else if (at("{") != statement.end() && at("(") < at("{")) {
             found.push_back({kind::function, *(at("(") - 1), statement});
         } else {

@@ -302,15 +302,21 @@ template <executor Executor = serial>
     bake_options where;
     where.scratch = options.scratch;
     where.memory = options.memory;
+    // All of it before anything is written.
     const std::size_t needed = mip_scratch_size(map.extent, map.bearings, execute.concurrency());
+    scratch_block all, block;
     if (!options.scratch.empty() && options.scratch.size() < needed)
         return {error::too_small, "options.scratch", double(options.scratch.size()), double(needed)};
+    if (options.scratch.empty()) {
+        if (status s = all.allocate(where, scratch_layout().add<std::byte>(needed).bytes(), "the scratch of mips"); !s)
+            return s;
+        where.scratch = {all.carve<std::byte>(needed), needed};
+    }
     for (std::size_t i = 0; i < levels.size(); ++i)
         if (status s = average(i == 0 ? map : levels[i - 1], scale, levels[i], where, execute); !s) return s;
     if (!options.keep_distribution) return {};
 
     const int slices = map.bearings, slots = slot_pool::slots(execute.concurrency(), std::size_t(slices));
-    scratch_block block;
     if (status s = block.allocate(where, needed, "the scratch of mips"); !s) return s;
     mip_scratch* const scratch = block.carve<mip_scratch>(std::size_t(slots));
     for (int i = 0; i < slots; ++i)

@@ -90,15 +90,15 @@ template <executor Executor = serial>
     using namespace sine_layers_detail;
     if (status s = check_textures(levels, directions, encoding, options, out); !s) return s;
     const slice_set slices{8, 0.0, bearing_function::exact};
-    return slice_detail::for_levels(
-        levels, options, [&](const horizon_map& slopes, int level, const pack_options& each) {
-            const auto sink = [&](const slice_rows& band) {
-                const float* rows[8];
-                for (int i = 0; i < 8; ++i) rows[i] = band.row(i, 0);
-                write(out, level, band.y + options.first_row, 0, rows, slopes.extent.x);
-            };
-            return for_slice_bands(slopes, directions, slices, encoding.scale, each, 1, execute, sink);
-        });
+    const auto pack = [&](const horizon_map& slopes, int level, const pack_options& each) {
+        const auto sink = [&](const slice_rows& band) {
+            const float* rows[8];
+            for (int i = 0; i < 8; ++i) rows[i] = band.row(i, 0);
+            write(out, level, band.y + options.first_row, 0, rows, slopes.extent.x);
+        };
+        return for_slice_bands(slopes, directions, slices, encoding.scale, each, 1, execute, sink);
+    };
+    return slice_detail::for_levels(levels, slices, 1, execute.concurrency(), options, pack);
 }
 
 // The same as published: each channel is the average of what is stored for the nearest five of 32 directions, those of
@@ -117,7 +117,8 @@ template <executor Executor = serial>
         return {error::mismatch, "directions", double(directions.size()), double(count)};
     const slice_set slices{count, 0.0, bearing_function::exact};
     return slice_detail::for_levels(
-        levels, options, [&](const horizon_map& slopes, int level, const pack_options& each) {
+        levels, slices, 1, execute.concurrency(), options,
+        [&](const horizon_map& slopes, int level, const pack_options& each) {
             pack_options picked = each;
             picked.fit = slice_fit::point;
             const auto sink = [&](const slice_rows& band) {

@@ -211,7 +211,26 @@ struct request {
     std::size_t sources;
     slice_set slices;
     int rows;  // of a band
+
+    [[nodiscard]] std::size_t items() const { return std::size_t((extent.y + rows_of_item - 1) / rows_of_item); }
+    [[nodiscard]] std::size_t bytes(int concurrency) const {
+        return scratch_bytes(extent.x, sources, slices.count, rows, slot_pool::slots(concurrency, items()));
+    }
 };
+
+// Takes the scratch of the largest of several runs, from the resource unless the options have some, and makes it that
+// of the options: memory cannot run out when a part of the output is written.
+[[nodiscard]] inline status take_scratch(const request& largest, int concurrency, scratch_block& block,
+                                         pack_options& options) {
+    if (!options.scratch.empty()) return {};
+    bake_options where;
+    where.memory = options.memory;
+    const std::size_t bytes = largest.bytes(concurrency);
+    if (status s = block.allocate(where, scratch_layout().add<std::byte>(bytes).bytes(), "the scratch of slices"); !s)
+        return s;
+    options.scratch = {block.carve<std::byte>(bytes), bytes};
+    return {};
+}
 
 // Runs the bands. make_plan(plan&, std::span<glm::dvec2> one a slice, double* work) says how.
 template <class MakePlan, class Source, executor Executor, class Sink>
@@ -219,16 +238,13 @@ template <class MakePlan, class Source, executor Executor, class Sink>
                          const Source& source, Executor&& execute, const Sink& sink) {
     const int width = wanted.extent.x, height = wanted.extent.y, rows = wanted.rows;
     const std::size_t count = std::size_t(wanted.slices.count);
-    const std::size_t items = std::size_t((height + rows_of_item - 1) / rows_of_item);
+    const std::size_t items = wanted.items();
     const int slots = slot_pool::slots(execute.concurrency(), items);
     bake_options where;
     where.scratch = options.scratch;
     where.memory = options.memory;
     scratch_block block;
-    if (status s = block.allocate(where, scratch_bytes(width, wanted.sources, wanted.slices.count, rows, slots),
-                                  "the scratch of slices");
-        !s)
-        return s;
+    if (status s = block.allocate(where, wanted.bytes(execute.concurrency()), "the scratch of slices"); !s) return s;
     plan p{.slices = wanted.slices, .contributions = {}, .columns = {}};
     const std::size_t contributions = (std::max)(wanted.sources, count);
     p.contributions = {block.carve<contribution>(contributions), contributions};

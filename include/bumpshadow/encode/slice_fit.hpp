@@ -17,15 +17,23 @@
 
 namespace bumpshadow {
 
-// Slice i of `count` holds bearing phase + i / count, as `function` measures bearings. Between two slices the stored
-// quantity is interpolated linearly.
+// Bearings that are stored, in turns, as `function` measures them. Between two slices the stored quantity is
+// interpolated linearly.
+//   arc 1        the whole turn: slice i at phase + i / count, and after the last one comes the first
+//   arc below 1  for lights that do not come from everywhere: slice i at phase + arc * i / (count - 1), so that the
+//                first and last are the ends of the arc. Light from beyond gets the horizon of the nearer end. Half a
+//                turn takes 5 slices for the spacing of 8 around it
+//   one slice    for all bearings of the arc alike; with arc 0 for a light whose bearing is fixed
+// Fits do not look at horizons in directions beyond the arc.
 struct slice_set {
     int count = 8;
     double phase = 0.0;
     bearing_function function = bearing_function::cubic;
+    double arc = 1.0;  // smallest_arc to 1; of one slice 0 to 1
 };
 
 inline constexpr int most_slices = 4096;
+inline constexpr double smallest_arc = 1e-6;  // bearings are floats in shaders
 
 enum class slice_fit : unsigned char {
     point,          // the horizon in the slice's own direction, which has to be among those baked
@@ -39,7 +47,25 @@ enum class slice_fit : unsigned char {
     if (slices.count <= 0) return {error::not_positive, "slices", double(slices.count)};
     if (slices.count > most_slices) return {error::out_of_range, "slices", double(slices.count), double(most_slices)};
     if (!is_finite(slices.phase)) return {error::not_finite, "phase", slices.phase};
+    if (!is_finite(slices.arc)) return {error::not_finite, "arc", slices.arc};
+    if (slices.arc < 0.0 || (slices.arc == 0.0 && slices.count > 1)) return {error::not_positive, "arc", slices.arc};
+    if (slices.arc > 1.0) return {error::out_of_range, "arc", slices.arc, 1.0};
+    if (slices.arc < smallest_arc && slices.count > 1) return {error::out_of_range, "arc", slices.arc, smallest_arc};
     return {};
+}
+
+[[nodiscard]] constexpr bool is_arc(const slice_set& slices) { return slices.arc < 1.0; }
+
+// Bearing of slice i: not brought into [0, 1).
+[[nodiscard]] constexpr double bearing_of(const slice_set& slices, int i) {
+    if (!is_arc(slices)) return slices.phase + double(i) / slices.count;
+    return slices.count > 1 ? slices.phase + slices.arc * i / (slices.count - 1) : slices.phase;
+}
+
+// Directions of the slices, one each.
+inline void fill_directions(std::span<glm::dvec2> out, const slice_set& slices) {
+    if (!is_arc(slices)) return fill_directions(out, slices.phase, slices.function);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = to_direction(slices.function, bearing_of(slices, int(i)));
 }
 
 namespace slice_detail {
@@ -75,11 +101,26 @@ struct plan {
     float unit = 1.0f;
 };
 
+// From the first slice to a bearing: [0, 1), or over an arc [-g, arc + g), 2 g being what the arc leaves of a turn.
+[[nodiscard]] inline double turns_from_first(const slice_set& slices, double bearing) {
+    const double beyond = 0.5 * (1.0 - slices.arc), turns = bearing - slices.phase + beyond;
+    return turns - std::floor(turns) - beyond;
+}
+
+// Whether a bearing lies in the arc, but for rounding.
+[[nodiscard]] inline bool is_within(const slice_set& slices, double bearing) {
+    constexpr double rounding = 1e-6;  // of floats, and as much as the point fit allows
+    if (!is_arc(slices)) return true;
+    const double turns = turns_from_first(slices, bearing);
+    return turns >= -rounding && turns <= slices.arc + rounding;
+}
+
 // Where a bearing lies among the slices; what is a slice but for rounding is that slice.
 [[nodiscard]] inline contribution locate(const slice_set& slices, double bearing) {
     if (slices.count == 1) return {0, 0, 0, 1.0f, 0.0f};
-    const double turns = bearing - slices.phase;
-    double position = (turns - std::floor(turns)) * slices.count;
+    const double turns = turns_from_first(slices, bearing), last = slices.count - 1;
+    // The next slice of the last one is the first here, too, where it has no part: the sums of both kinds are cyclic.
+    double position = is_arc(slices) ? (std::clamp)(turns * (last / slices.arc), 0.0, last) : turns * slices.count;
     if (std::abs(position - std::round(position)) < 1e-9) position = std::round(position);
     const double below = std::floor(position);
     const int slice = int(below) % slices.count;
@@ -126,10 +167,14 @@ struct plan {
 template <class Bearing>
 [[nodiscard]] status plan_fit(plan& p, std::size_t sources, const Bearing& bearing, double* work) {
     p.fitted = true;
+    std::size_t within = 0;
     for (std::size_t j = 0; j < sources; ++j) {
-        p.contributions[j] = locate(p.slices, bearing(j));
-        p.contributions[j].source = int(j);
+        const double at = bearing(j);
+        if (!is_within(p.slices, at)) continue;
+        p.contributions[within] = locate(p.slices, at);
+        p.contributions[within++].source = int(j);
     }
+    p.contributions = p.contributions.first(within);
     std::sort(p.contributions.begin(), p.contributions.end(), [](const contribution& a, const contribution& b) {
         return a.slice != b.slice ? a.slice < b.slice : a.source < b.source;
     });
@@ -139,7 +184,7 @@ template <class Bearing>
 // Plans to take the sources that stand in the slices' own directions.
 [[nodiscard]] inline status plan_point(plan& p, std::span<const glm::dvec2> directions, std::span<glm::dvec2> own) {
     p.fitted = false;
-    fill_directions(own, p.slices.phase, p.slices.function);
+    fill_directions(own, p.slices);
     p.contributions = p.contributions.first(own.size());
     for (std::size_t i = 0; i < own.size(); ++i) {
         std::size_t j = 0;

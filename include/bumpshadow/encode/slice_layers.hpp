@@ -26,7 +26,7 @@ enum class slice_grouping : unsigned char {
                   // bytes; the count is a multiple of 3
 };
 
-// Decoding: shader/slice_layers.h.
+// Slices of the whole turn: their arc is 1. Decoding: shader/slice_layers.h.
 struct slice_layers {
     slice_set slices = {};
     horizon_scale scale = {};
@@ -41,6 +41,7 @@ struct slice_layers {
 [[nodiscard]] inline status check(const slice_layers& encoding) {
     if (status s = check(encoding.slices); !s) return s;
     if (status s = check(encoding.scale); !s) return s;
+    if (is_arc(encoding.slices)) return {error::not_supported, "arc", encoding.slices.arc};
     const int each = slices_per_layer(encoding.grouping), count = encoding.slices.count;
     if (count % each != 0) return {error::not_a_multiple, "slices", double(count), double(each)};
     return {};
@@ -78,7 +79,8 @@ template <executor Executor = serial>
 
     const int count = encoding.slices.count, step = slices_per_layer(encoding.grouping);
     return slice_detail::for_levels(
-        levels, options, [&](const horizon_map& slopes, int level, const pack_options& each) {
+        levels, encoding.slices, 1, execute.concurrency(), options,
+        [&](const horizon_map& slopes, int level, const pack_options& each) {
             const auto sink = [&](const slice_rows& band) {
                 const std::size_t row = std::size_t(band.y + options.first_row) * out.layout.row_bytes(level);
                 for (int layer = 0; layer < out.layout.layers; ++layer) {

@@ -107,12 +107,16 @@ namespace bumpshadow {
 
 namespace slice_detail {
 
-// pack(slopes, level, options) for each level, with a report of all.
+// pack(slopes, level, options) for each level, with a report of all. slices, rows: those of level 0.
 template <class Pack>
-[[nodiscard]] status for_levels(std::span<const horizon_map> levels, const pack_options& options, const Pack& pack) {
+[[nodiscard]] status for_levels(std::span<const horizon_map> levels, const slice_set& slices, int rows, int concurrency,
+                                const pack_options& options, const Pack& pack) {
     pack_report sum, one;
     pack_options each = options;
     each.report = &one;
+    scratch_block block;
+    const request largest{levels[0].extent, std::size_t(levels[0].bearings), slices, rows};
+    if (status s = take_scratch(largest, concurrency, block, each); !s) return s;
     for (std::size_t level = 0; level < levels.size(); ++level) {
         if (status s = pack(levels[level], int(level), each); !s) return s;
         sum.clamped += one.clamped;

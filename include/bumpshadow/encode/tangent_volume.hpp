@@ -34,11 +34,14 @@ namespace bumpshadow {
 //   array   Two fetches. All levels have all slices, and so can have the shadows of level 0 (make_mips: within 1
 //           percentage point; bc4, whose blocks of small levels span much, 1, 2.5 and 5 at levels 1, 2 and 3 of
 //           maps of 256 texels).
+//   flat    One slice, one fetch, and no bearing.
+// Over an arc of bearings (slice_set) arc_coordinate_of has the constants: a volume is clamped along its third
+// coordinate in place of repeating, and has no mips; an array has them.
 struct tangent_volume {
     slice_set slices = {};
     horizon_scale scale = {};
     texel_format format = texel_format::r8;    // r8, r16, r16f, bc4
-    texture_kind kind = texture_kind::volume;  // or array
+    texture_kind kind = texture_kind::volume;  // or array; flat for a single slice
 };
 
 [[nodiscard]] inline status check(const tangent_volume& encoding) {
@@ -47,34 +50,55 @@ struct tangent_volume {
     const texel_format f = encoding.format;
     if (f != texel_format::r8 && f != texel_format::r16 && f != texel_format::r16f && f != texel_format::bc4)
         return {error::not_supported, "format", double(f)};
-    if (encoding.kind != texture_kind::volume && encoding.kind != texture_kind::array)
-        return {error::not_supported, "kind", double(encoding.kind)};
+    if (encoding.kind == texture_kind::cube) return {error::not_supported, "kind", double(encoding.kind)};
+    if (encoding.kind == texture_kind::flat && encoding.slices.count != 1)
+        return {error::mismatch, "slices of a flat texture", double(encoding.slices.count), 1.0};
     return {};
 }
 
 [[nodiscard]] constexpr texture_layout layout_of(const tangent_volume& encoding, glm::ivec2 extent, int mips = 1) {
-    const bool volume = encoding.kind == texture_kind::volume;
-    return {encoding.format,
-            encoding.kind,
-            extent,
-            volume ? encoding.slices.count : 1,
-            volume ? 1 : encoding.slices.count,
-            mips};
+    const int count = encoding.slices.count;
+    return {.format = encoding.format,
+            .kind = encoding.kind,
+            .extent = extent,
+            .depth = encoding.kind == texture_kind::volume ? count : 1,
+            .layers = encoding.kind == texture_kind::array ? count : 1,
+            .mips = mips};
 }
 
 [[nodiscard]] constexpr int fetches(const tangent_volume& encoding) {
-    return encoding.kind == texture_kind::volume ? 1 : 2;
+    return encoding.kind == texture_kind::array ? 2 : 1;
 }
 
-// What is added to a bearing to get the third coordinate of a volume.
+// What is added to a bearing to get the third coordinate of a volume of the whole turn.
 [[nodiscard]] constexpr double coordinate_offset(const tangent_volume& encoding) {
     return 0.5 / encoding.slices.count - encoding.slices.phase;
 }
 
-// Slices of a mip level, at the bearings of its texel centers: n of them, coordinate (j + 0.5) / n.
+// Where a bearing lies in the texture of an arc: scale * fract(bearing - start) + offset. The wrap of fract lies half
+// way between the ends of the arc, on its far side.
+struct arc_coordinate {
+    float start = 0.0f, scale = 0.0f, offset = 0.0f;
+};
+
+// Of a volume the third coordinate, of an array the position among its layers; the arc is below 1. The position of a
+// bearing is off by 1e-7 (count - 1) / arc slices.
+[[nodiscard]] inline arc_coordinate arc_coordinate_of(const tangent_volume& encoding) {
+    const slice_set& slices = encoding.slices;
+    const bool volume = encoding.kind == texture_kind::volume;
+    const double unit = volume ? 1.0 / slices.count : 1.0, first = slices.phase - std::floor(slices.phase);
+    arc_coordinate c;
+    c.start = float(first - 0.5 * (1.0 - slices.arc));
+    if (slices.count > 1) c.scale = float(unit * (slices.count - 1) / slices.arc);
+    c.offset = float((volume ? 0.5 * unit : 0.0) - double(c.scale) * (first - double(c.start)));
+    return c;
+}
+
+// Slices of a mip level, at the bearings of its texel centers: n of them, coordinate (j + 0.5) / n. A volume over an
+// arc has level 0 alone.
 [[nodiscard]] constexpr slice_set slices_of_level(const tangent_volume& encoding, int level) {
     slice_set slices = encoding.slices;
-    if (encoding.kind == texture_kind::volume) {
+    if (encoding.kind == texture_kind::volume && !is_arc(slices)) {
         slices.count = mip_extent(encoding.slices.count, level);
         slices.phase = 0.5 / slices.count - coordinate_offset(encoding);
     }
@@ -82,6 +106,14 @@ struct tangent_volume {
 }
 
 namespace tangent_volume_detail {
+
+// Checks that the encoding can have as many levels.
+[[nodiscard]] inline status check_mips(const tangent_volume& encoding, slice_fit fit, int mips) {
+    if (encoding.kind != texture_kind::volume || mips == 1) return {};
+    if (fit == slice_fit::point) return {error::not_supported, "mips of a volume without a fit", double(mips)};
+    if (is_arc(encoding.slices)) return {error::not_supported, "mips of a volume over an arc", double(mips)};
+    return {};
+}
 
 template <class Byte>
 [[nodiscard]] Byte* slice_bytes(const basic_texture<Byte>& t, int level, int slice) {
@@ -142,18 +174,17 @@ template <executor Executor = serial>
     if (levels.empty()) return {error::missing, "levels"};
     if (status s = check_layout(out, layout_of(encoding, packed_extent(levels, out.layout), int(levels.size()))); !s)
         return s;
-    if (options.fit == slice_fit::point && levels.size() > 1 && encoding.kind == texture_kind::volume)
-        return {error::not_supported, "mips of a volume without a fit", double(levels.size())};
+    if (status s = check_mips(encoding, options.fit, int(levels.size())); !s) return s;
     if (status s = check_levels(levels, directions, out.layout, options.first_row); !s) return s;
     const int rows = encoding.format == texel_format::bc4 ? 4 : 1;
-    return slice_detail::for_levels(
-        levels, options, [&](const horizon_map& slopes, int level, const pack_options& each) {
-            const slice_set slices = slices_of_level(encoding, level);
-            const auto sink = [&](const slice_rows& band) {
-                write_band(band, slices.count, out, level, band.y + options.first_row);
-            };
-            return for_slice_bands(slopes, directions, slices, encoding.scale, each, rows, execute, sink);
-        });
+    const auto pack = [&](const horizon_map& slopes, int level, const pack_options& each) {
+        const slice_set slices = slices_of_level(encoding, level);
+        const auto sink = [&](const slice_rows& band) {
+            write_band(band, slices.count, out, level, band.y + options.first_row);
+        };
+        return for_slice_bands(slopes, directions, slices, encoding.scale, each, rows, execute, sink);
+    };
+    return slice_detail::for_levels(levels, encoding.slices, rows, execute.concurrency(), options, pack);
 }
 
 // The same without mips.
@@ -164,13 +195,15 @@ template <executor Executor = serial>
     return pack_tangent_volume(std::span<const horizon_map>(&slopes, 1), directions, encoding, options, out, execute);
 }
 
-// Half the slices: every other one. For machines with less memory.
+// Half the slices: every other one, over an arc those of both ends included. For machines with less memory.
 [[nodiscard]] constexpr tangent_volume halved(tangent_volume encoding) {
-    encoding.slices.count /= 2;
+    slice_set& slices = encoding.slices;
+    slices.count = is_arc(slices) ? (slices.count + 1) / 2 : slices.count / 2;
     return encoding;
 }
 
-// Makes the texture of halved(encoding) from that of `encoding`, while loading it; the count of slices has to be even.
+// Makes the texture of halved(encoding) from that of `encoding`, while loading it; the count of slices has to be even,
+// over an arc odd.
 //   fit: point drops every other slice, bytes and all, but not of a volume with mips, whose slices stand elsewhere;
 //        least_squares fits half the slices to all of them, and so does least_angle
 //   report: not written, since a texture has no samples that are clamped
@@ -179,14 +212,16 @@ template <executor Executor = serial>
                                   const pack_options& options, const texture& out, Executor&& execute = {}) {
     using namespace tangent_volume_detail;
     if (status s = check(encoding); !s) return s;
-    if (encoding.slices.count % 2 != 0) return {error::not_a_multiple, "slices", double(encoding.slices.count), 2.0};
+    const bool arc = is_arc(encoding.slices);
+    const int spaces = encoding.slices.count - (arc ? 1 : 0);
+    if (spaces % 2 != 0)
+        return {error::not_a_multiple, arc ? "slices of an arc less 1" : "slices", double(spaces), 2.0};
     const tangent_volume half = halved(encoding);
     const texture_layout& layout = from.layout;
     if (status s = check_layout(from, layout_of(encoding, layout.extent, layout.mips)); !s) return s;
     if (status s = check_layout(out, layout_of(half, layout.extent, layout.mips)); !s) return s;
+    if (status s = check_mips(encoding, options.fit, layout.mips); !s) return s;
     if (options.fit == slice_fit::point) {
-        if (encoding.kind == texture_kind::volume && layout.mips > 1)
-            return {error::not_supported, "mips of a volume without a fit", double(layout.mips)};
         execute(std::size_t(half.slices.count), [&](std::size_t i) {
             for (int level = 0; level < layout.mips; ++level)
                 std::memcpy(slice_bytes(out, level, int(i)), slice_bytes(from, level, 2 * int(i)),
@@ -197,10 +232,14 @@ template <executor Executor = serial>
     pack_report none;
     pack_options each = options;
     each.report = &none;
+    const int rows = encoding.format == texel_format::bc4 ? 4 : 1;
+    scratch_block block;
+    const slice_detail::request largest{layout.extent, std::size_t(encoding.slices.count), half.slices, rows};
+    if (status s = slice_detail::take_scratch(largest, execute.concurrency(), block, each); !s) return s;
     for (int level = 0; level < layout.mips; ++level) {
         const slice_set wide = slices_of_level(encoding, level), slices = slices_of_level(half, level);
         const auto make_plan = [&](slice_detail::plan& p, std::span<glm::dvec2>, double* work) {
-            const auto bearing = [&](std::size_t i) { return wide.phase + double(i) / wide.count; };
+            const auto bearing = [&](std::size_t i) { return bearing_of(wide, int(i)); };
             return slice_detail::plan_fit(p, std::size_t(wide.count), bearing, work);
         };
         const auto source = [&](int slice, int x, int y, int count, float* to, slice_detail::lanes_seen&) {
@@ -208,8 +247,7 @@ template <executor Executor = serial>
             std::fill(to + count, to + slice_detail::padded(count), 0.0f);
         };
         status s = slice_detail::run(
-            {layout.level_extent(level), std::size_t(wide.count), slices, encoding.format == texel_format::bc4 ? 4 : 1},
-            each, make_plan, source, execute,
+            {layout.level_extent(level), std::size_t(wide.count), slices, rows}, each, make_plan, source, execute,
             [&](const slice_rows& band) { write_band(band, slices.count, out, level, band.y); });
         if (!s) return s;
     }

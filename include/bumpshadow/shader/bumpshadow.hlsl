@@ -4,8 +4,9 @@
 // How to paste it
 //   1. Put this text above your pixel shader, or include it there.
 //   2. Set the switches that follow, or define them before this text.
-//   3. Bind a texture that `bake --encoding` or the library packed: repeat in all directions, linear filter. Mips:
-//      of arrays and flat textures alone, since the third coordinate of a volume jumps where bearings wrap.
+//   3. Bind a texture that `bake --encoding` or the library packed: repeat in all directions (a volume over an arc of
+//      bearings: clamp along w), linear filter. Mips: of arrays and flat textures alone. Volumes are sampled at level
+//      0, since their third coordinate jumps where bearings wrap, which the hardware would take for a far surface.
 //   4. Call what your encoding needs (below) with the light in tangent space: +x along u, +y along v, +z outwards.
 //   5. Multiply the light's color by the factor. Ambient light stays as it is.
 //
@@ -52,25 +53,40 @@
 //       float diffuse = max(dot(n, light), 0.0);
 //       float gloss = pow(max(dot(n, normalize(light + normalize(to_eye))), 0.0), 32.0);
 //       float shadow = shadow_map_factor();  // what you have
-//                                                           float max_slope = 4.0;  // as bake printed it
+//                                                           float max_slope = max(4.0, 1e-6);  // 4: as bake printed it; it may be 0
 //                                                           float w = bumpshadow_bearing(light.xy) + 0.5 / 8.0;
 //                                                           shadow *= bumpshadow_shadow(bumpshadow_level(light) / max_slope,
-//                                                                                       horizons.Sample(linear_repeat, float3(uv, w)).r, 8.0);
+//                                                                                       horizons.SampleLevel(linear_repeat, float3(uv, w), 0.0).r, 8.0);
 //       return float4(base * (ambient + shadow * light_color * diffuse) + shadow * light_color * gloss, 1.0);
 //   }
 //
+// A vertex at a time: next to nothing is left to a pixel. In the vertex shader, and then in the pixel shader
+//
+//   float3 light = bumpshadow_to_tangent_space(to_light, tangent, bitangent, normal);
+//   float2 at = bumpshadow_vertex_bearing(light, max_slope);
+//   pair = bumpshadow_bearing_pair(at.x);  // float2 and float, interpolated
+//   level = at.y;
+//
+//   float w = bumpshadow_pick_bearing(pair, fwidth(pair)) + 0.5 / 8.0;
+//   shadow *= bumpshadow_shadow(level / max_slope, horizons.SampleLevel(linear_repeat, float3(uv, w), 0.0).r, 8.0);
+//
 // Encodings: what is sampled, and the horizon that it gives: over what stands for 1, so that it is compared with
-// bumpshadow_level(light) / max_slope (sines of 0 to 90 degrees: bumpshadow_level(light)).
-//   tangent volume   volume.Sample(how, float3(uv, bumpshadow_volume_coordinate(bumpshadow_bearing(light.xy), offset))).r
+// bumpshadow_level(light) / max_slope (sines of 0 to 90 degrees: bumpshadow_level(light)), max_slope at least 1e-6.
+//   tangent volume   float3 at = float3(uv, bumpshadow_volume_coordinate(bumpshadow_bearing(light.xy), offset));
+//                    volume.SampleLevel(how, at, 0.0).r
 //   slices, array    float3 a = bumpshadow_tangent_layers(bearing, phase, N);
 //                    bumpshadow_tangent_horizon(map.Sample(how, float3(uv, a.x)).r, map.Sample(how, float3(uv, a.y)).r, a.z)
+//     over an arc    the same with bumpshadow_arc_coordinate(bearing, start, scale, offset); its sampler clamps w
+//     array of those float3 a = bumpshadow_arc_layers(bearing, start, scale, offset, N);
+//                    bumpshadow_tangent_horizon(map.Sample(how, float3(uv, a.x)).r, map.Sample(how, float3(uv, a.y)).r, a.z)
+//     one bearing    map.Sample(how, uv).r: a light that is fixed needs no bearing
 //   slice layers     float p = bumpshadow_slice_position(bearing, phase, N);
 //                    float3 a = bumpshadow_grouped_layers(p, N / 4);
 //                    bumpshadow_grouped_horizon(map.Sample(how, float3(uv, a.x)), map.Sample(how, float3(uv, a.y)).r, a.z)
 //     overlapping    float2 a = bumpshadow_overlapping_layer(p);
 //                    bumpshadow_overlapping_horizon(map.Sample(how, float3(uv, a.x)), a.y)
 //   sine layers      bumpshadow_sine_layers(first, second, light.xy), or with a factor cube:
-//                    bumpshadow_sine_layers_factors(first, second, bumpshadow_factors_biased_cube(cube.Sample(how, light)))
+//                    bumpshadow_sine_layers_biased_cube(first, second, cube.Sample(how, light))
 //   Fourier          bumpshadow_fourier_5(bumpshadow_fourier_texel(map.Sample(how, uv), scale, offset), constant,
 //                                         bumpshadow_fourier_direction(light.xy))
 //   SSBump           bumpshadow_ssbump_light(map.Sample(how, uv).rgb, bumpshadow_ssbump_weights(light)), in place of
@@ -178,10 +194,18 @@ bumpshadow_eight bumpshadow_factors_published_cube(float4 texel) {
 }
 
 // From a factor cube in which 128 of 255 stands for 0: at the same cost, and nothing leaks.
+float4 bumpshadow_layer0_biased_cube(float4 texel) {
+    return clamp(texel * 2.007874 - 1.007874, 0.0, 1.0);
+}
+
+float4 bumpshadow_layer1_biased_cube(float4 texel) {
+    return clamp(texel * -2.007874 + 1.007874, 0.0, 1.0);
+}
+
 bumpshadow_eight bumpshadow_factors_biased_cube(float4 texel) {
     bumpshadow_eight factors;
-    factors.layer0 = clamp(texel * 2.007874 - 1.007874, 0.0, 1.0);
-    factors.layer1 = clamp(texel * -2.007874 + 1.007874, 0.0, 1.0);
+    factors.layer0 = bumpshadow_layer0_biased_cube(texel);
+    factors.layer1 = bumpshadow_layer1_biased_cube(texel);
     return factors;
 }
 
@@ -280,8 +304,11 @@ float bumpshadow_fourier_9(float4 texel, float4 more, float constant, float2 dir
 // ---- light ----
 //
 // Elevation of a light, seen from the surface, in the quantity that a texture stores. `light` points to the light in
-// tangent space, of any length whose square neither overflows nor vanishes. A light straight up gives a large finite
-// number, the zero vector 0.
+// tangent space, of any length whose square neither overflows nor vanishes; beyond that the level is wrong or infinite,
+// but a number. A light straight up gives a large finite number, the zero vector 0.
+//
+// A texture stores slopes over max_slope, which is 0 for a flat map: divide by max(max_slope, 1e-6), so that 0 / 0 does
+// not arise.
 
 // Tangent of the elevation, at most 1e15 light.z in size.
 float bumpshadow_slope(float3 light) {
@@ -318,9 +345,10 @@ float3 bumpshadow_normal_of_derivatives(float2 stored, float max_slope, float y)
 
 // ---- shadow ----
 //
-// Shadow factor: 0 in shadow, 1 in light. `light` and `horizon` in the quantity that the texture stores, both over what
-// stands for 1 there or both as they are; the edge of the shadow is 1 / k wide in it. A light below the surface
-// (light < 0) gives 0, and one exactly on the horizon is lit (hard, c = 1) or half lit (c = 0.5).
+// Shadow factor: 0 in shadow, 1 in light, and in [0, 1] for every input. `light` and `horizon` in the quantity that the
+// texture stores, both over what stands for 1 there or both as they are; the edge of the shadow is 1 / k wide in it. A
+// light below the surface (light < 0) gives 0, and one exactly on the horizon is lit (hard, c = 1) or half lit (c =
+// 0.5). An infinite level gives 1, and what is not a number (0 / 0, or infinity with k = 0) 0.
 
 // No soft edge: the limit of large k.
 float bumpshadow_shadow_hard(float light, float horizon) {
@@ -329,7 +357,8 @@ float bumpshadow_shadow_hard(float light, float horizon) {
 
 // clamp(k (light - horizon) + c, 0, 1), for a light that is never below the surface or does not shine there anyway.
 float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
-    return clamp(min(k, 1e30) * (light - horizon) + c, 0.0, 1.0);
+    // In this order, max takes the 0 where the other is not a number; clamp may keep that.
+    return min(max(0.0, min(k, 1e30) * (light - horizon) + c), 1.0);
 }
 
 // The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2019, equation 5.4); c
@@ -340,7 +369,7 @@ float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
 
 // Shadows that end with distance: the factor up to `start`, 1 from `end` on.
 float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
-    return lerp(factor, 1.0, clamp((distance - start) / max(end - start, 1e-30), 0.0, 1.0));
+    return lerp(factor, 1.0, min(max(0.0, (distance - start) / max(end - start, 1e-30)), 1.0));
 }
 
 // ---- sine_layers ----
@@ -352,6 +381,11 @@ float bumpshadow_shadow_fade(float factor, float distance, float start, float en
 // Equation 5.3. One set of factors serves every texture that is lit from the same direction.
 float bumpshadow_sine_layers_factors(float4 layer0, float4 layer1, bumpshadow_eight factors) {
     return dot(layer0, factors.layer0) + dot(layer1, factors.layer1);
+}
+
+// The same straight from a texel of a biased cube, without the structure.
+float bumpshadow_sine_layers_biased_cube(float4 layer0, float4 layer1, float4 texel) {
+    return dot(layer0, bumpshadow_layer0_biased_cube(texel)) + dot(layer1, bumpshadow_layer1_biased_cube(texel));
 }
 
 // The same as with bumpshadow_factors(light), by picking the two horizons that have a part: fewer instructions.
@@ -403,17 +437,11 @@ float3 bumpshadow_grouped_layers(float position, float layers) {
     return float3(layer, next < layers ? next : 0.0, position - 4.0 * layer);
 }
 
-// Parts of the four channels: those of hat functions around 0, 1, 2, 3.
-float4 bumpshadow_slice_parts(float place) {
-    return max(float4(1.0, 1.0, 1.0, 1.0) - abs(float4(place, place - 1.0, place - 2.0, place - 3.0)),
-               float4(0.0, 0.0, 0.0, 0.0));
-}
-
 // Horizon from layer x, and the first channel of layer y.
 float bumpshadow_grouped_horizon(float4 values, float next_value, float place) {
     // Of the two neighbors one is even, the other odd.
     float past = place - 2.0;
-    float even = abs(past) < 1.0 ? values.z : past < 0.0 ? values.x : next_value;
+    float even = abs(past) < 1.0 ? values.z : (past < 0.0 ? values.x : next_value);
     float odd = past < 0.0 ? values.y : values.w;
     return odd + abs(abs(past) - 1.0) * (even - odd);
 }
@@ -517,12 +545,13 @@ float3 bumpshadow_normal_lightmaps(float3 normal, float3 red, float3 green, floa
 }
 
 // A dynamic light projected on the basis: three dots, clamped. light: towards the light in tangent space, as long as it
-// is strong. Once an object or vertex for lights that are far. As with a normal map, a light a little below the surface
-// still shines on slopes that face it.
+// is strong. Once an object or vertex for lights that are far. As with a normal map, a light below the surface still
+// shines on slopes that face it, down to 54.7 degrees below; where it must not, pass the zero vector.
 float3 bumpshadow_ssbump_weights(float3 light) { return max(bumpshadow_ssbump_project(light), 0.0); }
 
 // Diffuse light of a dynamic light; weights: from the function above. In place of the clamped dot of normal and light,
-// and of a shadow factor.
+// and of a shadow factor. At most the length of the masks times that of the light, not 1: with a unit light 1.003 for
+// baked masks of 8 bits, sqrt(3) for white ones.
 float bumpshadow_ssbump_light(float3 masks, float3 weights) { return dot(masks, weights); }
 
 // ---- tangent_volume ----
@@ -531,7 +560,8 @@ float bumpshadow_ssbump_light(float3 masks, float3 weights) { return dot(masks, 
 // the stored quantity over what stands for 1, and are compared with a light in the same unit.
 // Source: Forsyth, Self-shadowing Bumpmap using 3D Texture Hardware, sections 3 and 4.
 
-// Third coordinate of a volume texture that repeats, for one fetch. offset: 0.5 / N - phase
+// Third coordinate of a volume texture that repeats, for one fetch, at level 0: where bearings wrap the coordinate
+// jumps, and implicit derivatives would ask for a coarse level there. offset: 0.5 / N - phase
 float bumpshadow_volume_coordinate(float bearing, float offset) { return bearing + offset; }
 
 // An array of layers, for two fetches: x, y: the two layers, z: part of the second one. phase and bearing may have any
@@ -541,6 +571,20 @@ float3 bumpshadow_tangent_layers(float bearing, float phase, float slices) {
     float layer = min(floor(position), slices - 1.0);
     float next = layer + 1.0;
     return float3(layer, next < slices ? next : 0.0, position - layer);
+}
+
+// Third coordinate of a volume texture that is clamped along it, for one fetch. Bearings beyond the arc get the nearer
+// end.
+float bumpshadow_arc_coordinate(float bearing, float start, float scale, float offset) {
+    return scale * frac(bearing - start) + offset;
+}
+
+// The two layers of an array (x, y), and the part of the second one (z). Layer y may be one too many where its part is
+// 0: hardware clamps it.
+float3 bumpshadow_arc_layers(float bearing, float start, float scale, float offset, float slices) {
+    float position = clamp(scale * frac(bearing - start) + offset, 0.0, slices - 1.0);
+    float layer = floor(position);
+    return float3(layer, layer + 1.0, position - layer);
 }
 
 // Horizon from the two values.
@@ -553,10 +597,10 @@ float bumpshadow_tangent_horizon(float value, float next_value, float part) {
 // What can be computed a vertex (or an object) at a time and interpolated over triangles.
 //
 // Three sets of interpolants, from the fewest instructions a pixel to the smallest error:
-//   bearing, slope           nothing left to do a pixel; needs the seam fix below, and is undefined over the triangle
+//   bearing, level           nothing left to do a pixel; needs the seam fix below, and is undefined over the triangle
 //                            that the light stands above (Forsyth, Self-shadowing Bumpmap, section 4.1)
-//   direction (2), slope     a bearing a pixel; no seam, and defined everywhere
-//   the light itself (3)     bearing and slope a pixel; exact for a point light over a flat triangle
+//   direction (2), level     a bearing a pixel; no seam, and defined everywhere
+//   the light itself (3)     bearing and level a pixel; exact for a point light over a flat triangle
 
 // Into tangent space: the axes are unit vectors, at right angles to each other.
 float3 bumpshadow_to_tangent_space(float3 v, float3 tangent, float3 bitangent, float3 normal) {
@@ -570,6 +614,14 @@ float bumpshadow_vertex_slope(float3 light, float most) {
 }
 
 // Bearing and slope of a light.
+float2 bumpshadow_vertex_bearing_exact(float3 light, float most) {
+    return float2(bumpshadow_bearing_exact(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
+}
+
+float2 bumpshadow_vertex_bearing_quintic(float3 light, float most) {
+    return float2(bumpshadow_bearing_quintic(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
+}
+
 float2 bumpshadow_vertex_bearing_cubic(float3 light, float most) {
     return float2(bumpshadow_bearing_cubic(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
@@ -578,14 +630,20 @@ float2 bumpshadow_vertex_bearing_octant(float3 light, float most) {
     return float2(bumpshadow_bearing_octant(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 
-float2 bumpshadow_vertex_bearing_exact(float3 light, float most) {
-    return float2(bumpshadow_bearing_exact(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
+float2 bumpshadow_vertex_bearing_diamond(float3 light, float most) {
+    return float2(bumpshadow_bearing_diamond(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 
 // Direction (xy, of length 1; 0 straight up, so that such a vertex leaves the direction to the others) and slope (z).
 float3 bumpshadow_vertex_direction(float3 light, float most) {
     float inverse = rsqrt(max(light.x * light.x + light.y * light.y, 1e-30));
     return float3(light.x * inverse, light.y * inverse, bumpshadow_vertex_slope(light, most));
+}
+
+// The same with the sine (z), which needs no cut.
+float3 bumpshadow_vertex_direction_sine(float3 light) {
+    float inverse = rsqrt(max(light.x * light.x + light.y * light.y, 1e-30));
+    return float3(light.x * inverse, light.y * inverse, bumpshadow_sine(light));
 }
 
 // Bearings of a triangle's vertices moved by whole turns to within half a turn of the first, as Direct3D's wrap mode
@@ -638,6 +696,12 @@ float bumpshadow_level(float3 light) {
 #endif
 }
 
+// Bearing and elevation of a light a vertex at a time. The elevation is cut at `most`, since a vertex that the light
+// stands above would outweigh all others: max_slope for slopes, 1 for sines.
+float2 bumpshadow_vertex_bearing(float3 light, float most) {
+    return float2(bumpshadow_bearing(light.xy), clamp(bumpshadow_level(light), -most, most));
+}
+
 // k does not matter for a hard edge.
 float bumpshadow_shadow(float light, float horizon, float k) {
 #if BUMPSHADOW_EDGE == 0
@@ -653,13 +717,26 @@ float bumpshadow_shadow(float light, float horizon, float k) {
 
 // ---- horizons from textures: the stored value, over what stands for 1 ----
 
-// offset: 0.5 / N - phase
+// offset: 0.5 / N - phase. Level 0 of the volume, at any distance.
 float bumpshadow_sample_volume(Texture3D map, SamplerState how, float2 uv, float3 light, float offset) {
-    return map.Sample(how, float3(uv, bumpshadow_volume_coordinate(bumpshadow_bearing(light.xy), offset))).r;
+    return map.SampleLevel(how, float3(uv, bumpshadow_volume_coordinate(bumpshadow_bearing(light.xy), offset)), 0.0).r;
 }
 
 float bumpshadow_sample_slices(Texture2DArray map, SamplerState how, float2 uv, float3 light, float phase, float slices) {
     float3 at = bumpshadow_tangent_layers(bumpshadow_bearing(light.xy), phase, slices);
+    return bumpshadow_tangent_horizon(map.Sample(how, float3(uv, at.x)).r, map.Sample(how, float3(uv, at.y)).r, at.z);
+}
+
+// Over an arc of bearings. start, scale, offset: those of arc_coordinate_of; the volume is clamped along its third
+// coordinate.
+float bumpshadow_sample_arc(Texture3D map, SamplerState how, float2 uv, float3 light, float start, float scale, float offset) {
+    float w = bumpshadow_arc_coordinate(bumpshadow_bearing(light.xy), start, scale, offset);
+    return map.SampleLevel(how, float3(uv, w), 0.0).r;
+}
+
+float bumpshadow_sample_arc_slices(Texture2DArray map, SamplerState how, float2 uv, float3 light, float start, float scale, float offset,
+                                   float slices) {
+    float3 at = bumpshadow_arc_layers(bumpshadow_bearing(light.xy), start, scale, offset, slices);
     return bumpshadow_tangent_horizon(map.Sample(how, float3(uv, at.x)).r, map.Sample(how, float3(uv, at.y)).r, at.z);
 }
 
@@ -686,8 +763,8 @@ float bumpshadow_sample_two_maps(Texture2D first, Texture2D second, SamplerState
 
 // Factors from a cube, biased.
 float bumpshadow_sample_with_cube(Texture2DArray map, TextureCube cube, SamplerState how, float2 uv, float3 light) {
-    return bumpshadow_sine_layers_factors(map.Sample(how, float3(uv, 0.0)), map.Sample(how, float3(uv, 1.0)),
-                                          bumpshadow_factors_biased_cube(cube.Sample(how, light)));
+    return bumpshadow_sine_layers_biased_cube(map.Sample(how, float3(uv, 0.0)), map.Sample(how, float3(uv, 1.0)),
+                                              cube.Sample(how, light));
 }
 
 // scale, offset: of the four coefficients; constant: scale and offset of the one in the second texture.
@@ -698,7 +775,7 @@ float bumpshadow_sample_fourier_5(Texture2D map, Texture2D constant_map, Sampler
                                 bumpshadow_fourier_direction(light.xy));
 }
 
-// Diffuse brightness, shadow included.
+// Diffuse brightness, shadow included; a light below the surface gives some on slopes that face it.
 float bumpshadow_sample_ssbump(Texture2D map, SamplerState how, float2 uv, float3 light) {
     return bumpshadow_ssbump_light(map.Sample(how, uv).rgb, bumpshadow_ssbump_weights(light));
 }

@@ -55,6 +55,12 @@
 //       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 //   }
 
+#ifdef BUMPSHADOW_BAKE_KIND
+#if BUMPSHADOW_BAKE_KIND < 0 || BUMPSHADOW_BAKE_KIND > 4
+#error "BUMPSHADOW_BAKE_KIND is 0 (level 0), 1 (resampling), 2 (heights), 3 (cells) or 4 (texels)"
+#endif
+#endif
+
 precision highp float;
 precision highp int;
 layout(local_size_x = 16, local_size_y = 4) in;

@@ -52,6 +52,12 @@
 //       list->ResourceBarrier(1, &written);
 //   }
 
+#ifdef BUMPSHADOW_BAKE_KIND
+#if BUMPSHADOW_BAKE_KIND < 0 || BUMPSHADOW_BAKE_KIND > 4
+#error "BUMPSHADOW_BAKE_KIND is 0 (level 0), 1 (resampling), 2 (heights), 3 (cells) or 4 (texels)"
+#endif
+#endif
+
 StructuredBuffer<float> bumpshadow_bake_heights : register(t0);
 StructuredBuffer<int4> bumpshadow_bake_tables : register(t1);
 RWStructuredBuffer<float> bumpshadow_bake_scratch : register(u2);

@@ -17,10 +17,16 @@ BUMPSHADOW_FUNCTION bumpshadow_eight bumpshadow_factors_published_cube(vec4 texe
 }
 
 // From a factor cube in which 128 of 255 stands for 0: at the same cost, and nothing leaks.
+BUMPSHADOW_FUNCTION vec4 bumpshadow_layer0_biased_cube(vec4 texel) {
+    return clamp(texel * 2.007874f - 1.007874f, 0.0f, 1.0f);
+}
+BUMPSHADOW_FUNCTION vec4 bumpshadow_layer1_biased_cube(vec4 texel) {
+    return clamp(texel * -2.007874f + 1.007874f, 0.0f, 1.0f);
+}
 BUMPSHADOW_FUNCTION bumpshadow_eight bumpshadow_factors_biased_cube(vec4 texel) {
     bumpshadow_eight factors;
-    factors.layer0 = clamp(texel * 2.007874f - 1.007874f, 0.0f, 1.0f);
-    factors.layer1 = clamp(texel * -2.007874f + 1.007874f, 0.0f, 1.0f);
+    factors.layer0 = bumpshadow_layer0_biased_cube(texel);
+    factors.layer1 = bumpshadow_layer1_biased_cube(texel);
     return factors;
 }
 

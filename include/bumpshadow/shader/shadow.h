@@ -1,6 +1,7 @@
-// Shadow factor: 0 in shadow, 1 in light. `light` and `horizon` in the quantity that the texture stores, both over what
-// stands for 1 there or both as they are; the edge of the shadow is 1 / k wide in it. A light below the surface
-// (light < 0) gives 0, and one exactly on the horizon is lit (hard, c = 1) or half lit (c = 0.5).
+// Shadow factor: 0 in shadow, 1 in light, and in [0, 1] for every input. `light` and `horizon` in the quantity that the
+// texture stores, both over what stands for 1 there or both as they are; the edge of the shadow is 1 / k wide in it. A
+// light below the surface (light < 0) gives 0, and one exactly on the horizon is lit (hard, c = 1) or half lit (c =
+// 0.5). An infinite level gives 1, and what is not a number (0 / 0, or infinity with k = 0) 0.
 
 // No soft edge: the limit of large k.
 BUMPSHADOW_FUNCTION float bumpshadow_shadow_hard(float light, float horizon) {
@@ -9,7 +10,8 @@ BUMPSHADOW_FUNCTION float bumpshadow_shadow_hard(float light, float horizon) {
 
 // clamp(k (light - horizon) + c, 0, 1), for a light that is never below the surface or does not shine there anyway.
 BUMPSHADOW_FUNCTION float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
-    return clamp(min(k, 1e30f) * (light - horizon) + c, 0.0f, 1.0f);
+    // In this order, max takes the 0 where the other is not a number; clamp may keep that.
+    return min(max(0.0f, min(k, 1e30f) * (light - horizon) + c), 1.0f);
 }
 
 // The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2019, equation 5.4); c
@@ -20,5 +22,5 @@ BUMPSHADOW_FUNCTION float bumpshadow_shadow_soft(float light, float horizon, flo
 
 // Shadows that end with distance: the factor up to `start`, 1 from `end` on.
 BUMPSHADOW_FUNCTION float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
-    return mix(factor, 1.0f, clamp((distance - start) / max(end - start, 1e-30f), 0.0f, 1.0f));
+    return mix(factor, 1.0f, min(max(0.0f, (distance - start) / max(end - start, 1e-30f)), 1.0f));
 }

@@ -7,6 +7,11 @@ BUMPSHADOW_FUNCTION float bumpshadow_sine_layers_factors(vec4 layer0, vec4 layer
     return dot(layer0, factors.layer0) + dot(layer1, factors.layer1);
 }
 
+// The same straight from a texel of a biased cube, without the structure.
+BUMPSHADOW_FUNCTION float bumpshadow_sine_layers_biased_cube(vec4 layer0, vec4 layer1, vec4 texel) {
+    return dot(layer0, bumpshadow_layer0_biased_cube(texel)) + dot(layer1, bumpshadow_layer1_biased_cube(texel));
+}
+
 // The same as with bumpshadow_factors(light), by picking the two horizons that have a part: fewer instructions.
 BUMPSHADOW_FUNCTION float bumpshadow_sine_layers(vec4 layer0, vec4 layer1, vec2 light) {
     float x = abs(light.x);

@@ -16,17 +16,11 @@ BUMPSHADOW_FUNCTION vec3 bumpshadow_grouped_layers(float position, float layers)
     return vec3(layer, next < layers ? next : 0.0f, position - 4.0f * layer);
 }
 
-// Parts of the four channels: those of hat functions around 0, 1, 2, 3.
-BUMPSHADOW_FUNCTION vec4 bumpshadow_slice_parts(float place) {
-    return max(vec4(1.0f, 1.0f, 1.0f, 1.0f) - abs(vec4(place, place - 1.0f, place - 2.0f, place - 3.0f)),
-               vec4(0.0f, 0.0f, 0.0f, 0.0f));
-}
-
 // Horizon from layer x, and the first channel of layer y.
 BUMPSHADOW_FUNCTION float bumpshadow_grouped_horizon(vec4 values, float next_value, float place) {
     // Of the two neighbors one is even, the other odd.
     float past = place - 2.0f;
-    float even = abs(past) < 1.0f ? values.z : past < 0.0f ? values.x : next_value;
+    float even = abs(past) < 1.0f ? values.z : (past < 0.0f ? values.x : next_value);
     float odd = past < 0.0f ? values.y : values.w;
     return odd + abs(abs(past) - 1.0f) * (even - odd);
 }

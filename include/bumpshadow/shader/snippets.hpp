@@ -11,7 +11,8 @@
 
 // The shader snippets as text, for engines that put their shaders together at run time, and for shading languages
 // without a preprocessor. What comes out holds what is asked for and what that calls, and no line that starts with #.
-// Needs the standard library alone.
+// For a choice it is functions alone, in GLSL that Godot 3 takes too: no structures, arrays, overloads, matrices,
+// nested conditions without parentheses and suffixes of numbers. Needs the standard library alone.
 
 namespace bumpshadow::shader_text {
 
@@ -24,8 +25,11 @@ enum class dialect : unsigned char {
 enum class decoder : unsigned char {
     volume,            // tangent volume, one fetch
     slices,            // tangent volume as an array, two fetches
+    arc,               // tangent volume over an arc of bearings, one fetch
+    arc_slices,        // the same as an array, two fetches
     grouped,           // slice layers, two fetches
     overlapping,       // slice layers, one fetch
+    flat,              // one slice, for a light whose bearing is fixed: no bearing function
     sine_layers,       // two layers, factors computed
     sine_layers_cube,  // the same, factors from a cube (biased)
     sine_layers_half,  // an array of both layers, of one of which one channel is enough
@@ -53,6 +57,7 @@ struct choice {
     quantity stored = quantity::slope;
     edge shadow = edge::soft;
     bool square_root = false;  // Fourier: signed square roots are stored
+    bool vertex = false;       // decoders of slices: bearing and level a vertex at a time, too
 };
 
 namespace snippets_detail {
@@ -99,12 +104,15 @@ inline constexpr std::string_view shadows[] = {"bumpshadow_shadow_hard", "bumpsh
     switch (chosen.decode) {
         case decoder::volume: return {"bumpshadow_volume_coordinate"};
         case decoder::slices: return {"bumpshadow_tangent_layers", "bumpshadow_tangent_horizon"};
+        case decoder::arc: return {"bumpshadow_arc_coordinate"};
+        case decoder::arc_slices: return {"bumpshadow_arc_layers", "bumpshadow_tangent_horizon"};
         case decoder::grouped:
             return {"bumpshadow_slice_position", "bumpshadow_grouped_layers", "bumpshadow_grouped_horizon"};
         case decoder::overlapping:
             return {"bumpshadow_slice_position", "bumpshadow_overlapping_layer", "bumpshadow_overlapping_horizon"};
+        case decoder::flat: return {};
         case decoder::sine_layers: return {"bumpshadow_sine_layers"};
-        case decoder::sine_layers_cube: return {"bumpshadow_factors_biased_cube", "bumpshadow_sine_layers_factors"};
+        case decoder::sine_layers_cube: return {"bumpshadow_sine_layers_biased_cube"};
         case decoder::sine_layers_half: return {"bumpshadow_sine_first_layer", "bumpshadow_sine_half"};
         case decoder::fourier_3: return {texel, "bumpshadow_fourier_3", direction};
         case decoder::fourier_5: return {texel, "bumpshadow_fourier_5", direction, constant};
@@ -118,6 +126,10 @@ inline constexpr std::string_view shadows[] = {"bumpshadow_shadow_hard", "bumpsh
     }
     return {};
 }
+
+// What bearings from vertices take besides.
+inline constexpr std::string_view of_vertices[] = {"bumpshadow_to_tangent_space", "bumpshadow_bearing_pair",
+                                                   "bumpshadow_pick_bearing"};
 
 [[nodiscard]] constexpr bool has_bearing(decoder decode) { return decode <= decoder::overlapping; }
 [[nodiscard]] constexpr bool has_shadow(decoder decode) { return decode < decoder::ssbump; }
@@ -141,7 +153,10 @@ template <class Write>
 // The same for a choice: the functions of its decoder and, as in the paste files, under short names
 //   float bumpshadow_bearing(vec2 v)                                decoders of slices alone
 //   float bumpshadow_level(vec3 light)                              all but SSBump and embossing
-//   float bumpshadow_shadow(float light, float horizon, float k)    the same; a hard edge does not look at k
+//   vec2 bumpshadow_vertex_bearing(vec3 light, float most)          decoders of slices, if chosen: bearing and level,
+//                                                                   with what the seam takes (shader/vertex.h)
+//   float bumpshadow_shadow(float light, float horizon, float k)    all but SSBump and embossing; a hard edge does not
+//                                                                   look at k
 template <class Write>
 void compose(const choice& chosen, dialect language, const Write& write) {
     using namespace snippets_detail;
@@ -155,6 +170,9 @@ void compose(const choice& chosen, dialect language, const Write& write) {
         join(all, snippets[index_of(level)].needs);
         join(all, snippets[index_of(shadow)].needs);
     }
+    const bool vertex = chosen.vertex && has_bearing(chosen.decode);
+    if (vertex)
+        for (const std::string_view name : of_vertices) join(all, snippets[index_of(name)].needs);
     write_set(all, language, write);
 
     const bool glsl = language == dialect::glsl;
@@ -163,6 +181,11 @@ void compose(const choice& chosen, dialect language, const Write& write) {
         line("float bumpshadow_bearing(", glsl ? "vec2" : "float2", " v) { return ", bearing, "(v); }\n");
     if (!has_shadow(chosen.decode)) return;
     line("float bumpshadow_level(", glsl ? "vec3" : "float3", " light) { return ", level, "(light); }\n");
+    if (vertex) {
+        const std::string_view two = glsl ? "vec2" : "float2";
+        line(two, " bumpshadow_vertex_bearing(", glsl ? "vec3" : "float3", " light, float most) {\n    return ", two,
+             "(bumpshadow_bearing(light.xy), clamp(bumpshadow_level(light), -most, most));\n}\n");
+    }
     line("float bumpshadow_shadow(float light, float horizon, float k) { return ", shadow, "(light, horizon");
     if (chosen.shadow == edge::hard)
         line("); }\n");

@@ -207,24 +207,46 @@ R"~(bumpshadow_eight bumpshadow_factors_published_cube(float4 texel) {
 }
 )~",
      {0x6000u, 0x0u, 0x0u, 0x0u}},
-    {"bumpshadow_factors_biased_cube",
+    {"bumpshadow_layer0_biased_cube",
 R"~(// From a factor cube in which 128 of 255 stands for 0: at the same cost, and nothing leaks.
 )~",
+R"~(vec4 bumpshadow_layer0_biased_cube(vec4 texel) {
+    return clamp(texel * 2.007874 - 1.007874, 0.0, 1.0);
+}
+)~",
+R"~(float4 bumpshadow_layer0_biased_cube(float4 texel) {
+    return clamp(texel * 2.007874 - 1.007874, 0.0, 1.0);
+}
+)~",
+     {0x8000u, 0x0u, 0x0u, 0x0u}},
+    {"bumpshadow_layer1_biased_cube",
+R"~()~",
+R"~(vec4 bumpshadow_layer1_biased_cube(vec4 texel) {
+    return clamp(texel * -2.007874 + 1.007874, 0.0, 1.0);
+}
+)~",
+R"~(float4 bumpshadow_layer1_biased_cube(float4 texel) {
+    return clamp(texel * -2.007874 + 1.007874, 0.0, 1.0);
+}
+)~",
+     {0x10000u, 0x0u, 0x0u, 0x0u}},
+    {"bumpshadow_factors_biased_cube",
+R"~()~",
 R"~(bumpshadow_eight bumpshadow_factors_biased_cube(vec4 texel) {
     bumpshadow_eight factors;
-    factors.layer0 = clamp(texel * 2.007874 - 1.007874, 0.0, 1.0);
-    factors.layer1 = clamp(texel * -2.007874 + 1.007874, 0.0, 1.0);
+    factors.layer0 = bumpshadow_layer0_biased_cube(texel);
+    factors.layer1 = bumpshadow_layer1_biased_cube(texel);
     return factors;
 }
 )~",
 R"~(bumpshadow_eight bumpshadow_factors_biased_cube(float4 texel) {
     bumpshadow_eight factors;
-    factors.layer0 = clamp(texel * 2.007874 - 1.007874, 0.0, 1.0);
-    factors.layer1 = clamp(texel * -2.007874 + 1.007874, 0.0, 1.0);
+    factors.layer0 = bumpshadow_layer0_biased_cube(texel);
+    factors.layer1 = bumpshadow_layer1_biased_cube(texel);
     return factors;
 }
 )~",
-     {0xa000u, 0x0u, 0x0u, 0x0u}},
+     {0x3a000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_turn_to_diagonal",
 R"~(// How far a direction has turned from the nearest axis to the diagonal, 0 to 1. sine: of its angle to the axis, that is
 // the smaller component of the unit vector, 0 to 0.7071. Within 0.35 degrees of the true angle, exact at both ends;
@@ -234,7 +256,7 @@ R"~(float bumpshadow_turn_to_diagonal(float sine) { return sine * (1.1769721 + 0
 )~",
 R"~(float bumpshadow_turn_to_diagonal(float sine) { return sine * (1.1769721 + 0.3355101 * sine); }
 )~",
-     {0x10000u, 0x0u, 0x0u, 0x0u}},
+     {0x40000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_factors",
 R"~(// Without a cube. light: to the light, in the surface, of any length whose square neither overflows nor vanishes; (0,
 // 0) counts as +x, as for bearings.
@@ -269,7 +291,7 @@ R"~(bumpshadow_eight bumpshadow_factors(float2 light) {
     return factors;
 }
 )~",
-     {0x22001u, 0x0u, 0x0u, 0x0u}},
+     {0x82001u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_factors_of_bearing",
 R"~(// The same from a bearing, in turns, any number.
 )~",
@@ -291,7 +313,7 @@ R"~(bumpshadow_eight bumpshadow_factors_of_bearing(float bearing) {
     return factors;
 }
 )~",
-     {0x42000u, 0x0u, 0x0u, 0x0u}},
+     {0x102000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_direction",
 R"~(// (sin t, cos t) of a light's direction in the surface, of any length whose square neither overflows nor vanishes; (0,
 // 0) gives (0, 0), which leaves the constant alone.
@@ -304,7 +326,7 @@ R"~(float2 bumpshadow_fourier_direction(float2 light) {
     return light * rsqrt(bumpshadow_square(light));
 }
 )~",
-     {0x80001u, 0x0u, 0x0u, 0x0u}},
+     {0x200001u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_texel",
 R"~(// Coefficients from a texel.
 )~",
@@ -316,7 +338,7 @@ R"~(float4 bumpshadow_fourier_texel(float4 texel, float4 scale, float4 offset) {
     return texel * scale + offset;
 }
 )~",
-     {0x100000u, 0x0u, 0x0u, 0x0u}},
+     {0x400000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_root_texel",
 R"~(// The same where signed square roots are stored.
 )~",
@@ -330,7 +352,7 @@ R"~(float4 bumpshadow_fourier_root_texel(float4 texel, float4 scale, float4 offs
     return root * abs(root);
 }
 )~",
-     {0x200000u, 0x0u, 0x0u, 0x0u}},
+     {0x800000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_root_constant",
 R"~(// For a texture of one channel.
 )~",
@@ -344,7 +366,7 @@ R"~(float bumpshadow_fourier_root_constant(float texel, float scale, float offse
     return root * abs(root);
 }
 )~",
-     {0x400000u, 0x0u, 0x0u, 0x0u}},
+     {0x1000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_turn",
 R"~(// The series is summed from its end: `higher` turned by t, and the next lower pair added.
 )~",
@@ -358,7 +380,7 @@ R"~(float2 bumpshadow_fourier_turn(float2 higher, float2 lower, float2 direction
                 lower.y + higher.y * direction.y + higher.x * direction.x);
 }
 )~",
-     {0x800000u, 0x0u, 0x0u, 0x0u}},
+     {0x2000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_3",
 R"~()~",
 R"~(float bumpshadow_fourier_3(vec3 texel, vec2 direction) {
@@ -369,7 +391,7 @@ R"~(float bumpshadow_fourier_3(float3 texel, float2 direction) {
     return texel.z + texel.x * direction.x + texel.y * direction.y;
 }
 )~",
-     {0x1000000u, 0x0u, 0x0u, 0x0u}},
+     {0x4000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_5",
 R"~()~",
 R"~(float bumpshadow_fourier_5(vec4 texel, float constant, vec2 direction) {
@@ -382,7 +404,7 @@ R"~(float bumpshadow_fourier_5(float4 texel, float constant, float2 direction) {
     return constant + pair.x * direction.x + pair.y * direction.y;
 }
 )~",
-     {0x2800000u, 0x0u, 0x0u, 0x0u}},
+     {0xa000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_7",
 R"~()~",
 R"~(float bumpshadow_fourier_7(vec4 texel, vec3 more, vec2 direction) {
@@ -395,7 +417,7 @@ R"~(float bumpshadow_fourier_7(float4 texel, float3 more, float2 direction) {
     return bumpshadow_fourier_5(float4(texel.x, texel.y, pair.x, pair.y), more.z, direction);
 }
 )~",
-     {0x6800000u, 0x0u, 0x0u, 0x0u}},
+     {0x1a000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_9",
 R"~()~",
 R"~(float bumpshadow_fourier_9(vec4 texel, vec4 more, float constant, vec2 direction) {
@@ -408,7 +430,7 @@ R"~(float bumpshadow_fourier_9(float4 texel, float4 more, float constant, float2
     return bumpshadow_fourier_7(texel, float3(pair.x, pair.y, constant), direction);
 }
 )~",
-     {0xe800000u, 0x0u, 0x0u, 0x0u}},
+     {0x3a000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_slope",
 R"~(// Tangent of the elevation, at most 1e15 light.z in size.
 )~",
@@ -420,7 +442,7 @@ R"~(float bumpshadow_slope(float3 light) {
     return light.z * rsqrt(bumpshadow_square(float2(light.x, light.y)));
 }
 )~",
-     {0x10000001u, 0x0u, 0x0u, 0x0u}},
+     {0x40000001u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_sine",
 R"~(// Sine of the elevation.
 )~",
@@ -432,7 +454,7 @@ R"~(float bumpshadow_sine(float3 light) {
     return light.z * rsqrt(light.z * light.z + bumpshadow_square(float2(light.x, light.y)));
 }
 )~",
-     {0x20000001u, 0x0u, 0x0u, 0x0u}},
+     {0x80000001u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_angle",
 R"~(// Elevation in radians.
 )~",
@@ -440,7 +462,7 @@ R"~(float bumpshadow_angle(vec3 light) { return atan(bumpshadow_slope(light)); }
 )~",
 R"~(float bumpshadow_angle(float3 light) { return atan(bumpshadow_slope(light)); }
 )~",
-     {0x50000001u, 0x0u, 0x0u, 0x0u}},
+     {0x140000001u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_normal",
 R"~(// stored: the three channels, in [0, 1]; (1, 1, 1) / 2, which has no direction, gives straight up.
 )~",
@@ -456,7 +478,7 @@ R"~(float3 bumpshadow_normal(float3 stored, float y) {
     return square > 1e-4 ? normal * rsqrt(square) : float3(0.0, 0.0, 1.0);
 }
 )~",
-     {0x80000000u, 0x0u, 0x0u, 0x0u}},
+     {0x200000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_normal_of_derivatives",
 R"~(// Partial-derivative form: stored are dz/dx and dz/dy of the surface, over max_slope, from [-1, 1] to [0, 1]. Needs two
 // channels, and derivatives of several maps may be added. Steeper slopes are not stored.
@@ -471,7 +493,7 @@ R"~(float3 bumpshadow_normal_of_derivatives(float2 stored, float max_slope, floa
     return normal * rsqrt(dot(normal, normal));
 }
 )~",
-     {0x100000000u, 0x0u, 0x0u, 0x0u}},
+     {0x400000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_shadow_hard",
 R"~(// No soft edge: the limit of large k.
 )~",
@@ -483,19 +505,21 @@ R"~(float bumpshadow_shadow_hard(float light, float horizon) {
     return light >= max(horizon, 0.0) ? 1.0 : 0.0;
 }
 )~",
-     {0x200000000u, 0x0u, 0x0u, 0x0u}},
+     {0x800000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_shadow_soft_above",
 R"~(// clamp(k (light - horizon) + c, 0, 1), for a light that is never below the surface or does not shine there anyway.
 )~",
 R"~(float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
-    return clamp(min(k, 1e30) * (light - horizon) + c, 0.0, 1.0);
+    // In this order, max takes the 0 where the other is not a number; clamp may keep that.
+    return min(max(0.0, min(k, 1e30) * (light - horizon) + c), 1.0);
 }
 )~",
 R"~(float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
-    return clamp(min(k, 1e30) * (light - horizon) + c, 0.0, 1.0);
+    // In this order, max takes the 0 where the other is not a number; clamp may keep that.
+    return min(max(0.0, min(k, 1e30) * (light - horizon) + c), 1.0);
 }
 )~",
-     {0x400000000u, 0x0u, 0x0u, 0x0u}},
+     {0x1000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_shadow_soft",
 R"~(// The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2019, equation 5.4); c
 // = 0.5: it is centered. k from 0 to infinity.
@@ -508,19 +532,19 @@ R"~(float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
     return light >= 0.0 ? bumpshadow_shadow_soft_above(light, horizon, k, c) : 0.0;
 }
 )~",
-     {0xc00000000u, 0x0u, 0x0u, 0x0u}},
+     {0x3000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_shadow_fade",
 R"~(// Shadows that end with distance: the factor up to `start`, 1 from `end` on.
 )~",
 R"~(float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
-    return mix(factor, 1.0, clamp((distance - start) / max(end - start, 1e-30), 0.0, 1.0));
+    return mix(factor, 1.0, min(max(0.0, (distance - start) / max(end - start, 1e-30)), 1.0));
 }
 )~",
 R"~(float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
-    return lerp(factor, 1.0, clamp((distance - start) / max(end - start, 1e-30), 0.0, 1.0));
+    return lerp(factor, 1.0, min(max(0.0, (distance - start) / max(end - start, 1e-30)), 1.0));
 }
 )~",
-     {0x1000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x4000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_sine_layers_factors",
 R"~(// Equation 5.3. One set of factors serves every texture that is lit from the same direction.
 )~",
@@ -532,7 +556,19 @@ R"~(float bumpshadow_sine_layers_factors(float4 layer0, float4 layer1, bumpshado
     return dot(layer0, factors.layer0) + dot(layer1, factors.layer1);
 }
 )~",
-     {0x2000002000u, 0x0u, 0x0u, 0x0u}},
+     {0x8000002000u, 0x0u, 0x0u, 0x0u}},
+    {"bumpshadow_sine_layers_biased_cube",
+R"~(// The same straight from a texel of a biased cube, without the structure.
+)~",
+R"~(float bumpshadow_sine_layers_biased_cube(vec4 layer0, vec4 layer1, vec4 texel) {
+    return dot(layer0, bumpshadow_layer0_biased_cube(texel)) + dot(layer1, bumpshadow_layer1_biased_cube(texel));
+}
+)~",
+R"~(float bumpshadow_sine_layers_biased_cube(float4 layer0, float4 layer1, float4 texel) {
+    return dot(layer0, bumpshadow_layer0_biased_cube(texel)) + dot(layer1, bumpshadow_layer1_biased_cube(texel));
+}
+)~",
+     {0x10000018000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_sine_layers",
 R"~(// The same as with bumpshadow_factors(light), by picking the two horizons that have a part: fewer instructions.
 )~",
@@ -562,7 +598,7 @@ R"~(float bumpshadow_sine_layers(float4 layer0, float4 layer1, float2 light) {
     return axis + part * (diagonal - axis);
 }
 )~",
-     {0x4000010001u, 0x0u, 0x0u, 0x0u}},
+     {0x20000040001u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_sine_first_layer",
 R"~(// An array of both layers: the one to sample whole, and of the other one, 1 - this, only the first channel.
 )~",
@@ -570,7 +606,7 @@ R"~(float bumpshadow_sine_first_layer(vec2 light) { return light.y >= 0.0 ? 0.0 
 )~",
 R"~(float bumpshadow_sine_first_layer(float2 light) { return light.y >= 0.0 ? 0.0 : 1.0; }
 )~",
-     {0x8000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x40000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_sine_half",
 R"~(// What bumpshadow_sine_layers gives, from these two; fewer instructions still.
 )~",
@@ -596,7 +632,7 @@ R"~(float bumpshadow_sine_half(float4 first, float other, float2 light) {
     return axis + part * (diagonal - axis);
 }
 )~",
-     {0x10000010001u, 0x0u, 0x0u, 0x0u}},
+     {0x80000040001u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_slice_position",
 R"~(// Position of a bearing among the slices, in [0, N], N by rounding alone. phase and bearing may have any sign.
 )~",
@@ -608,7 +644,7 @@ R"~(float bumpshadow_slice_position(float bearing, float phase, float slices) {
     return frac(bearing - phase) * slices;
 }
 )~",
-     {0x20000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x100000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_grouped_layers",
 R"~(// Four slices a layer, two fetches; layers = N / 4. x, y: layers; z: position from the first channel of layer x on, in
 // [0, 4].
@@ -627,28 +663,14 @@ R"~(float3 bumpshadow_grouped_layers(float position, float layers) {
     return float3(layer, next < layers ? next : 0.0, position - 4.0 * layer);
 }
 )~",
-     {0x40000000000u, 0x0u, 0x0u, 0x0u}},
-    {"bumpshadow_slice_parts",
-R"~(// Parts of the four channels: those of hat functions around 0, 1, 2, 3.
-)~",
-R"~(vec4 bumpshadow_slice_parts(float place) {
-    return max(vec4(1.0, 1.0, 1.0, 1.0) - abs(vec4(place, place - 1.0, place - 2.0, place - 3.0)),
-               vec4(0.0, 0.0, 0.0, 0.0));
-}
-)~",
-R"~(float4 bumpshadow_slice_parts(float place) {
-    return max(float4(1.0, 1.0, 1.0, 1.0) - abs(float4(place, place - 1.0, place - 2.0, place - 3.0)),
-               float4(0.0, 0.0, 0.0, 0.0));
-}
-)~",
-     {0x80000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x200000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_grouped_horizon",
 R"~(// Horizon from layer x, and the first channel of layer y.
 )~",
 R"~(float bumpshadow_grouped_horizon(vec4 values, float next_value, float place) {
     // Of the two neighbors one is even, the other odd.
     float past = place - 2.0;
-    float even = abs(past) < 1.0 ? values.z : past < 0.0 ? values.x : next_value;
+    float even = abs(past) < 1.0 ? values.z : (past < 0.0 ? values.x : next_value);
     float odd = past < 0.0 ? values.y : values.w;
     return odd + abs(abs(past) - 1.0) * (even - odd);
 }
@@ -656,12 +678,12 @@ R"~(float bumpshadow_grouped_horizon(vec4 values, float next_value, float place)
 R"~(float bumpshadow_grouped_horizon(float4 values, float next_value, float place) {
     // Of the two neighbors one is even, the other odd.
     float past = place - 2.0;
-    float even = abs(past) < 1.0 ? values.z : past < 0.0 ? values.x : next_value;
+    float even = abs(past) < 1.0 ? values.z : (past < 0.0 ? values.x : next_value);
     float odd = past < 0.0 ? values.y : values.w;
     return odd + abs(abs(past) - 1.0) * (even - odd);
 }
 )~",
-     {0x100000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x400000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_overlapping_layer",
 R"~(// Layers that overlap by one slice, one fetch. x: layer; y: position from its first channel on, in [0, 3].
 )~",
@@ -677,7 +699,7 @@ R"~(float2 bumpshadow_overlapping_layer(float position) {
     return float2(layer, position - 3.0 * layer);
 }
 )~",
-     {0x200000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x800000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_overlapping_horizon",
 R"~(// Horizon from the layer.
 )~",
@@ -695,7 +717,7 @@ R"~(float bumpshadow_overlapping_horizon(float4 values, float place) {
     return odd + abs(abs(past) - 1.0) * (even - odd);
 }
 )~",
-     {0x400000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x1000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_other_hand",
 R"~(// Left-handed (y-down) masks to right-handed (y-up) ones and back: green and blue swapped, which is the same as
 // swapping the last two vectors of the basis. Doing both undoes it.
@@ -704,7 +726,7 @@ R"~(vec3 bumpshadow_ssbump_other_hand(vec3 masks) { return vec3(masks.x, masks.z
 )~",
 R"~(float3 bumpshadow_ssbump_other_hand(float3 masks) { return float3(masks.x, masks.z, masks.y); }
 )~",
-     {0x800000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x2000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_sum",
 R"~(// Sum of the basis vectors, each times its mask; not unit length.
 )~",
@@ -718,7 +740,7 @@ R"~(float3 bumpshadow_ssbump_sum(float3 masks) {
                 0.57735027 * (masks.x + masks.y + masks.z));
 }
 )~",
-     {0x1000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x4000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_project",
 R"~(// Three dots with the basis, the inverse of the sum: the masks of a unit normal as long as none is negative, which they
 // are not up to a tilt of 35.26 degrees, asin(1/sqrt(3)); beyond, some bearings make one negative.
@@ -737,7 +759,7 @@ R"~(float3 bumpshadow_ssbump_project(float3 v) {
     return float3(0.81649658 * v.x + up, back + side, back - side);
 }
 )~",
-     {0x2000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x8000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_normal",
 R"~(// Unit normal: of the surface for masks without occlusion, else bent towards where it is open. Black gives straight up.
 )~",
@@ -753,7 +775,7 @@ R"~(float3 bumpshadow_ssbump_normal(float3 masks) {
     return square > 1e-8 ? sum * rsqrt(square) : float3(0.0, 0.0, 1.0);
 }
 )~",
-     {0x5000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x14000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_world_red",
 R"~(// The basis concatenated with the way from tangent space to the world, whose axes are unit vectors in the world: once a
 // vertex or a pixel. Any of the sums above then lands in the world.
@@ -766,7 +788,7 @@ R"~(float3 bumpshadow_ssbump_world_red(float3 tangent, float3 normal) {
     return 0.81649658 * tangent + 0.57735027 * normal;
 }
 )~",
-     {0x8000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x20000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_world_green",
 R"~()~",
 R"~(vec3 bumpshadow_ssbump_world_green(vec3 tangent, vec3 bitangent, vec3 normal) {
@@ -777,7 +799,7 @@ R"~(float3 bumpshadow_ssbump_world_green(float3 tangent, float3 bitangent, float
     return 0.70710678 * bitangent - 0.40824829 * tangent + 0.57735027 * normal;
 }
 )~",
-     {0x10000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x40000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_world_blue",
 R"~()~",
 R"~(vec3 bumpshadow_ssbump_world_blue(vec3 tangent, vec3 bitangent, vec3 normal) {
@@ -788,7 +810,7 @@ R"~(float3 bumpshadow_ssbump_world_blue(float3 tangent, float3 bitangent, float3
     return 0.57735027 * normal - 0.40824829 * tangent - 0.70710678 * bitangent;
 }
 )~",
-     {0x20000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x80000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_world_normal",
 R"~(// Straight to a unit normal in the world; red, green, blue: from the three functions above. Black gives the zero
 // vector.
@@ -803,7 +825,7 @@ R"~(float3 bumpshadow_ssbump_world_normal(float3 masks, float3 red, float3 green
     return sum * rsqrt(max(dot(sum, sum), 1e-20));
 }
 )~",
-     {0x40000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x100000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_reflection",
 R"~(// Where a ray from the eye goes on to: `eye` points to the eye, `normal` is unit length, both in the same space.
 )~",
@@ -811,7 +833,7 @@ R"~(vec3 bumpshadow_reflection(vec3 eye, vec3 normal) { return 2.0 * dot(normal,
 )~",
 R"~(float3 bumpshadow_reflection(float3 eye, float3 normal) { return 2.0 * dot(normal, eye) * normal - eye; }
 )~",
-     {0x80000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x200000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_detail",
 R"~(// A gray detail map multiplied in: the recovered normal stays. detail: 1 changes nothing.
 )~",
@@ -819,7 +841,7 @@ R"~(vec3 bumpshadow_ssbump_detail(vec3 masks, float detail) { return masks * det
 )~",
 R"~(float3 bumpshadow_ssbump_detail(float3 masks, float detail) { return masks * detail; }
 )~",
-     {0x100000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x400000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_detail_masks",
 R"~(// A second SSBump map as detail, packed so that flat is 0.5. The product may exceed 1: a target of 8 bits clamps it.
 )~",
@@ -827,7 +849,7 @@ R"~(vec3 bumpshadow_ssbump_detail_masks(vec3 masks, vec3 detail) { return 2.0 * 
 )~",
 R"~(float3 bumpshadow_ssbump_detail_masks(float3 masks, float3 detail) { return 2.0 * masks * detail; }
 )~",
-     {0x200000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x800000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_lightmaps",
 R"~(// Diffuse light from three lightmaps, one for each basis vector b, each simply multiplied by its mask. Exact for a
 // light from anywhere that all three face, since the basis is orthonormal. Lightmaps that hold the irradiance on planes
@@ -844,7 +866,7 @@ R"~(float3 bumpshadow_ssbump_lightmaps(float3 masks, float3 red, float3 green, f
     return masks.x * red + masks.y * green + masks.z * blue;
 }
 )~",
-     {0x400000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x1000000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_normal_lightmaps",
 R"~(// The same lightmaps with an ordinary normal map (McTaggart 2004, Half-Life 2 / Valve Source Shading): weights are the
 // squares of the clamped dots, over their sum.
@@ -863,34 +885,36 @@ R"~(float3 bumpshadow_normal_lightmaps(float3 normal, float3 red, float3 green, 
     return (squares.x * red + squares.y * green + squares.z * blue) * (1.0 / sum);
 }
 )~",
-     {0x802000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x2008000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_weights",
 R"~(// A dynamic light projected on the basis: three dots, clamped. light: towards the light in tangent space, as long as it
-// is strong. Once an object or vertex for lights that are far. As with a normal map, a light a little below the surface
-// still shines on slopes that face it.
+// is strong. Once an object or vertex for lights that are far. As with a normal map, a light below the surface still
+// shines on slopes that face it, down to 54.7 degrees below; where it must not, pass the zero vector.
 )~",
 R"~(vec3 bumpshadow_ssbump_weights(vec3 light) { return max(bumpshadow_ssbump_project(light), 0.0); }
 )~",
 R"~(float3 bumpshadow_ssbump_weights(float3 light) { return max(bumpshadow_ssbump_project(light), 0.0); }
 )~",
-     {0x1002000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x4008000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_light",
 R"~(// Diffuse light of a dynamic light; weights: from the function above. In place of the clamped dot of normal and light,
-// and of a shadow factor.
+// and of a shadow factor. At most the length of the masks times that of the light, not 1: with a unit light 1.003 for
+// baked masks of 8 bits, sqrt(3) for white ones.
 )~",
 R"~(float bumpshadow_ssbump_light(vec3 masks, vec3 weights) { return dot(masks, weights); }
 )~",
 R"~(float bumpshadow_ssbump_light(float3 masks, float3 weights) { return dot(masks, weights); }
 )~",
-     {0x2000000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x8000000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_volume_coordinate",
-R"~(// Third coordinate of a volume texture that repeats, for one fetch. offset: 0.5 / N - phase
+R"~(// Third coordinate of a volume texture that repeats, for one fetch, at level 0: where bearings wrap the coordinate
+// jumps, and implicit derivatives would ask for a coarse level there. offset: 0.5 / N - phase
 )~",
 R"~(float bumpshadow_volume_coordinate(float bearing, float offset) { return bearing + offset; }
 )~",
 R"~(float bumpshadow_volume_coordinate(float bearing, float offset) { return bearing + offset; }
 )~",
-     {0x4000000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x0u, 0x1u, 0x0u, 0x0u}},
     {"bumpshadow_tangent_layers",
 R"~(// An array of layers, for two fetches: x, y: the two layers, z: part of the second one. phase and bearing may have any
 // sign.
@@ -909,7 +933,37 @@ R"~(float3 bumpshadow_tangent_layers(float bearing, float phase, float slices) {
     return float3(layer, next < slices ? next : 0.0, position - layer);
 }
 )~",
-     {0x8000000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x0u, 0x2u, 0x0u, 0x0u}},
+    {"bumpshadow_arc_coordinate",
+R"~(// Third coordinate of a volume texture that is clamped along it, for one fetch. Bearings beyond the arc get the nearer
+// end.
+)~",
+R"~(float bumpshadow_arc_coordinate(float bearing, float start, float scale, float offset) {
+    return scale * fract(bearing - start) + offset;
+}
+)~",
+R"~(float bumpshadow_arc_coordinate(float bearing, float start, float scale, float offset) {
+    return scale * frac(bearing - start) + offset;
+}
+)~",
+     {0x0u, 0x4u, 0x0u, 0x0u}},
+    {"bumpshadow_arc_layers",
+R"~(// The two layers of an array (x, y), and the part of the second one (z). Layer y may be one too many where its part is
+// 0: hardware clamps it.
+)~",
+R"~(vec3 bumpshadow_arc_layers(float bearing, float start, float scale, float offset, float slices) {
+    float position = clamp(scale * fract(bearing - start) + offset, 0.0, slices - 1.0);
+    float layer = floor(position);
+    return vec3(layer, layer + 1.0, position - layer);
+}
+)~",
+R"~(float3 bumpshadow_arc_layers(float bearing, float start, float scale, float offset, float slices) {
+    float position = clamp(scale * frac(bearing - start) + offset, 0.0, slices - 1.0);
+    float layer = floor(position);
+    return float3(layer, layer + 1.0, position - layer);
+}
+)~",
+     {0x0u, 0x8u, 0x0u, 0x0u}},
     {"bumpshadow_tangent_horizon",
 R"~(// Horizon from the two values.
 )~",
@@ -921,7 +975,7 @@ R"~(float bumpshadow_tangent_horizon(float value, float next_value, float part) 
     return lerp(value, next_value, part);
 }
 )~",
-     {0x0u, 0x1u, 0x0u, 0x0u}},
+     {0x0u, 0x10u, 0x0u, 0x0u}},
     {"bumpshadow_to_tangent_space",
 R"~(// Into tangent space: the axes are unit vectors, at right angles to each other.
 )~",
@@ -933,7 +987,7 @@ R"~(float3 bumpshadow_to_tangent_space(float3 v, float3 tangent, float3 bitangen
     return float3(dot(v, tangent), dot(v, bitangent), dot(v, normal));
 }
 )~",
-     {0x0u, 0x2u, 0x0u, 0x0u}},
+     {0x0u, 0x20u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_slope",
 R"~(// Slope of a light, cut at `most`: a vertex that the light stands above would outweigh all others. max_slope serves for
 // c = 1, and max_slope (1 + 0.5 / k) for c = 0.5.
@@ -946,10 +1000,32 @@ R"~(float bumpshadow_vertex_slope(float3 light, float most) {
     return clamp(bumpshadow_slope(light), -most, most);
 }
 )~",
-     {0x10000001u, 0x4u, 0x0u, 0x0u}},
-    {"bumpshadow_vertex_bearing_cubic",
+     {0x40000001u, 0x40u, 0x0u, 0x0u}},
+    {"bumpshadow_vertex_bearing_exact",
 R"~(// Bearing and slope of a light.
 )~",
+R"~(vec2 bumpshadow_vertex_bearing_exact(vec3 light, float most) {
+    return vec2(bumpshadow_bearing_exact(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
+}
+)~",
+R"~(float2 bumpshadow_vertex_bearing_exact(float3 light, float most) {
+    return float2(bumpshadow_bearing_exact(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
+}
+)~",
+     {0x4000001fu, 0xc0u, 0x0u, 0x0u}},
+    {"bumpshadow_vertex_bearing_quintic",
+R"~()~",
+R"~(vec2 bumpshadow_vertex_bearing_quintic(vec3 light, float most) {
+    return vec2(bumpshadow_bearing_quintic(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
+}
+)~",
+R"~(float2 bumpshadow_vertex_bearing_quintic(float3 light, float most) {
+    return float2(bumpshadow_bearing_quintic(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
+}
+)~",
+     {0x4000002fu, 0x140u, 0x0u, 0x0u}},
+    {"bumpshadow_vertex_bearing_cubic",
+R"~()~",
 R"~(vec2 bumpshadow_vertex_bearing_cubic(vec3 light, float most) {
     return vec2(bumpshadow_bearing_cubic(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
@@ -958,7 +1034,7 @@ R"~(float2 bumpshadow_vertex_bearing_cubic(float3 light, float most) {
     return float2(bumpshadow_bearing_cubic(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 )~",
-     {0x1000004fu, 0xcu, 0x0u, 0x0u}},
+     {0x4000004fu, 0x240u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_bearing_octant",
 R"~()~",
 R"~(vec2 bumpshadow_vertex_bearing_octant(vec3 light, float most) {
@@ -969,18 +1045,18 @@ R"~(float2 bumpshadow_vertex_bearing_octant(float3 light, float most) {
     return float2(bumpshadow_bearing_octant(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 )~",
-     {0x1000008fu, 0x14u, 0x0u, 0x0u}},
-    {"bumpshadow_vertex_bearing_exact",
+     {0x4000008fu, 0x440u, 0x0u, 0x0u}},
+    {"bumpshadow_vertex_bearing_diamond",
 R"~()~",
-R"~(vec2 bumpshadow_vertex_bearing_exact(vec3 light, float most) {
-    return vec2(bumpshadow_bearing_exact(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
+R"~(vec2 bumpshadow_vertex_bearing_diamond(vec3 light, float most) {
+    return vec2(bumpshadow_bearing_diamond(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 )~",
-R"~(float2 bumpshadow_vertex_bearing_exact(float3 light, float most) {
-    return float2(bumpshadow_bearing_exact(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
+R"~(float2 bumpshadow_vertex_bearing_diamond(float3 light, float most) {
+    return float2(bumpshadow_bearing_diamond(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 )~",
-     {0x1000001fu, 0x24u, 0x0u, 0x0u}},
+     {0x4000010fu, 0x840u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_direction",
 R"~(// Direction (xy, of length 1; 0 straight up, so that such a vertex leaves the direction to the others) and slope (z).
 )~",
@@ -994,7 +1070,21 @@ R"~(float3 bumpshadow_vertex_direction(float3 light, float most) {
     return float3(light.x * inverse, light.y * inverse, bumpshadow_vertex_slope(light, most));
 }
 )~",
-     {0x10000001u, 0x44u, 0x0u, 0x0u}},
+     {0x40000001u, 0x1040u, 0x0u, 0x0u}},
+    {"bumpshadow_vertex_direction_sine",
+R"~(// The same with the sine (z), which needs no cut.
+)~",
+R"~(vec3 bumpshadow_vertex_direction_sine(vec3 light) {
+    float inverse = inversesqrt(max(light.x * light.x + light.y * light.y, 1e-30));
+    return vec3(light.x * inverse, light.y * inverse, bumpshadow_sine(light));
+}
+)~",
+R"~(float3 bumpshadow_vertex_direction_sine(float3 light) {
+    float inverse = rsqrt(max(light.x * light.x + light.y * light.y, 1e-30));
+    return float3(light.x * inverse, light.y * inverse, bumpshadow_sine(light));
+}
+)~",
+     {0x80000001u, 0x2000u, 0x0u, 0x0u}},
     {"bumpshadow_unwrap_bearings",
 R"~(// Bearings of a triangle's vertices moved by whole turns to within half a turn of the first, as Direct3D's wrap mode
 // did: 0.1, 0.2, 0.9 becomes 0.1, 0.2, -0.1. For geometry and mesh shaders, and for lights that are fixed in a mesh.
@@ -1009,7 +1099,7 @@ R"~(float3 bumpshadow_unwrap_bearings(float3 bearings) {
                 bearings.z - floor(bearings.z - bearings.x + 0.5));
 }
 )~",
-     {0x0u, 0x80u, 0x0u, 0x0u}},
+     {0x0u, 0x4000u, 0x0u, 0x0u}},
     {"bumpshadow_bearings_go_round",
 R"~(// True where the light stands above the triangle: its unwrapped bearings go round, and no bearings that are
 // interpolated linearly can be right.
@@ -1018,7 +1108,7 @@ R"~(bool bumpshadow_bearings_go_round(vec3 unwrapped) { return abs(unwrapped.y -
 )~",
 R"~(bool bumpshadow_bearings_go_round(float3 unwrapped) { return abs(unwrapped.y - unwrapped.z) > 0.5; }
 )~",
-     {0x0u, 0x100u, 0x0u, 0x0u}},
+     {0x0u, 0x8000u, 0x0u, 0x0u}},
     {"bumpshadow_bearing_pair",
 R"~(// Without neighbors: interpolate a bearing twice, once with its seam at 0 and once at half a turn. A triangle that
 // spans less than half a turn crosses one of the two at most; there that one changes faster. Source: Tarini,
@@ -1032,7 +1122,7 @@ R"~(float2 bumpshadow_bearing_pair(float bearing) {
     return float2(frac(bearing), frac(bearing + 0.5) - 0.5);
 }
 )~",
-     {0x0u, 0x200u, 0x0u, 0x0u}},
+     {0x0u, 0x10000u, 0x0u, 0x0u}},
     {"bumpshadow_pick_bearing",
 R"~(// change: fwidth of the pair.
 )~",
@@ -1044,7 +1134,7 @@ R"~(float bumpshadow_pick_bearing(float2 pair, float2 change) {
     return change.y < change.x ? pair.y : pair.x;
 }
 )~",
-     {0x0u, 0x400u, 0x0u, 0x0u}},
+     {0x0u, 0x20000u, 0x0u, 0x0u}},
 };
 
 }  // namespace bumpshadow::shader_text

@@ -78,10 +78,11 @@ BUMPSHADOW_FUNCTION vec3 bumpshadow_normal_lightmaps(vec3 normal, vec3 red, vec3
 }
 
 // A dynamic light projected on the basis: three dots, clamped. light: towards the light in tangent space, as long as it
-// is strong. Once an object or vertex for lights that are far. As with a normal map, a light a little below the surface
-// still shines on slopes that face it.
+// is strong. Once an object or vertex for lights that are far. As with a normal map, a light below the surface still
+// shines on slopes that face it, down to 54.7 degrees below; where it must not, pass the zero vector.
 BUMPSHADOW_FUNCTION vec3 bumpshadow_ssbump_weights(vec3 light) { return max(bumpshadow_ssbump_project(light), 0.0f); }
 
 // Diffuse light of a dynamic light; weights: from the function above. In place of the clamped dot of normal and light,
-// and of a shadow factor.
+// and of a shadow factor. At most the length of the masks times that of the light, not 1: with a unit light 1.003 for
+// baked masks of 8 bits, sqrt(3) for white ones.
 BUMPSHADOW_FUNCTION float bumpshadow_ssbump_light(vec3 masks, vec3 weights) { return dot(masks, weights); }

@@ -1,10 +1,10 @@
 // What can be computed a vertex (or an object) at a time and interpolated over triangles.
 //
 // Three sets of interpolants, from the fewest instructions a pixel to the smallest error:
-//   bearing, slope           nothing left to do a pixel; needs the seam fix below, and is undefined over the triangle
+//   bearing, level           nothing left to do a pixel; needs the seam fix below, and is undefined over the triangle
 //                            that the light stands above (Forsyth, Self-shadowing Bumpmap, section 4.1)
-//   direction (2), slope     a bearing a pixel; no seam, and defined everywhere
-//   the light itself (3)     bearing and slope a pixel; exact for a point light over a flat triangle
+//   direction (2), level     a bearing a pixel; no seam, and defined everywhere
+//   the light itself (3)     bearing and level a pixel; exact for a point light over a flat triangle
 
 // Into tangent space: the axes are unit vectors, at right angles to each other.
 BUMPSHADOW_FUNCTION vec3 bumpshadow_to_tangent_space(vec3 v, vec3 tangent, vec3 bitangent, vec3 normal) {
@@ -18,20 +18,32 @@ BUMPSHADOW_FUNCTION float bumpshadow_vertex_slope(vec3 light, float most) {
 }
 
 // Bearing and slope of a light.
+BUMPSHADOW_FUNCTION vec2 bumpshadow_vertex_bearing_exact(vec3 light, float most) {
+    return vec2(bumpshadow_bearing_exact(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
+}
+BUMPSHADOW_FUNCTION vec2 bumpshadow_vertex_bearing_quintic(vec3 light, float most) {
+    return vec2(bumpshadow_bearing_quintic(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
+}
 BUMPSHADOW_FUNCTION vec2 bumpshadow_vertex_bearing_cubic(vec3 light, float most) {
     return vec2(bumpshadow_bearing_cubic(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 BUMPSHADOW_FUNCTION vec2 bumpshadow_vertex_bearing_octant(vec3 light, float most) {
     return vec2(bumpshadow_bearing_octant(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
-BUMPSHADOW_FUNCTION vec2 bumpshadow_vertex_bearing_exact(vec3 light, float most) {
-    return vec2(bumpshadow_bearing_exact(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
+BUMPSHADOW_FUNCTION vec2 bumpshadow_vertex_bearing_diamond(vec3 light, float most) {
+    return vec2(bumpshadow_bearing_diamond(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 
 // Direction (xy, of length 1; 0 straight up, so that such a vertex leaves the direction to the others) and slope (z).
 BUMPSHADOW_FUNCTION vec3 bumpshadow_vertex_direction(vec3 light, float most) {
     float inverse = inversesqrt(max(light.x * light.x + light.y * light.y, 1e-30f));
     return vec3(light.x * inverse, light.y * inverse, bumpshadow_vertex_slope(light, most));
+}
+
+// The same with the sine (z), which needs no cut.
+BUMPSHADOW_FUNCTION vec3 bumpshadow_vertex_direction_sine(vec3 light) {
+    float inverse = inversesqrt(max(light.x * light.x + light.y * light.y, 1e-30f));
+    return vec3(light.x * inverse, light.y * inverse, bumpshadow_sine(light));
 }
 
 // ---- The seam ----

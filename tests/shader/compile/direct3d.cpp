@@ -1,8 +1,10 @@
-// The shaders through Microsoft's compilers, which are stricter than glslang: Windows libraries, for example those in
-// dist/win32-x64 of the npm package webgpu, called under Wine.
+// The shaders through Microsoft's compilers, which are stricter than glslang: Windows libraries, called under Wine. The
+// npm package webgpu has them in dist/win32-x64.
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,13 +17,22 @@
 
 namespace {
 
+// Where the two libraries are looked for: in the folder that BUMPSHADOW_HLSL_COMPILERS names, or else where npm puts
+// them at the top of the project.
+std::string library_folder() {
+    const char* const named = std::getenv("BUMPSHADOW_HLSL_COMPILERS");
+    return named != nullptr ? named : BUMPSHADOW_TESTS_FOLDER "/../node_modules/webgpu/dist/win32-x64";
+}
+
+// FXC for shader models 4 and 5, DXC for 6, as programs that use Direct3D call them.
+std::string library(bool fxc) { return library_folder() + (fxc ? "/d3dcompiler_47.dll" : "/dxcompiler.dll"); }
+
 // What Windows libraries need here, as a sentence; empty: nothing is missing.
-std::string missing() {
-    const char* const folder = std::getenv("BUMPSHADOW_HLSL_COMPILERS");
-    if (folder == nullptr)
-        return "BUMPSHADOW_HLSL_COMPILERS names no folder with d3dcompiler_47.dll and dxcompiler.dll";
+std::string missing(bool fxc) {
+    const std::string what = fxc ? "FXC: no " : "DXC: no ";
+    if (!std::ifstream(library(fxc))) return what + library(fxc) + " (see BUMPSHADOW_HLSL_COMPILERS in cmake/run.sh)";
     for (const char* name : {"env", "wine", "x86_64-w64-mingw32-g++"})
-        if (tool::find(name).empty()) return std::string("no ") + name + " on PATH";
+        if (tool::find(name).empty()) return what + name + " on PATH";
     return {};
 }
 
@@ -70,58 +81,77 @@ struct compilers {
     }
 };
 
-// FXC for shader models 4 and 5, DXC for 6, as programs that use Direct3D call them; empty: there is none.
-std::string library(bool fxc) {
-    const char* const folder = std::getenv("BUMPSHADOW_HLSL_COMPILERS");
-    std::string path = std::string(folder) + (fxc ? "/d3dcompiler_47.dll" : "/dxcompiler.dll");
-    if (std::ifstream(path)) return path;
-    skip::because("no " + path);
-    return {};
+// Calls use(compilers, whether it is FXC) for each of the two that is here.
+template <class Use>
+void with_each(const Use& use) {
+    std::optional<compilers> all;
+    for (const bool fxc : {true, false}) {
+        if (const std::string why = missing(fxc); !why.empty()) {
+            skip::because(why);
+            continue;
+        }
+        if (!all) all.emplace();
+        use(*all, fxc);
+    }
 }
 
 }  // namespace
 
 TEST_CASE("every snippet with FXC and DXC, warnings as errors") {
-    if (const std::string why = missing(); !why.empty()) return skip::because("FXC and DXC: " + why);
-    constexpr const char* targets[2][6][2] = {
-        {{"pixel", "ps_6_0"}, {"pixel", "ps_6_6"}, {"vertex", "vs_6_0"}, {"compute", "cs_6_0"}, {"compute", "cs_6_6"}},
-        {{"pixel", "ps_4_0"},
-         {"pixel", "ps_5_0"},
-         {"pixel", "ps_5_1"},
-         {"vertex", "vs_4_0"},
-         {"vertex", "vs_5_0"},
-         {"compute", "cs_5_0"}}};
-    compilers with;
-    const std::string file = with.write(calls::hlsl_of(calls::read()));
-    for (const bool fxc : {true, false}) {
+    const std::vector<std::array<const char*, 2>> models_4_and_5 = {{"pixel", "ps_4_0"},  {"pixel", "ps_5_0"},
+                                                                    {"pixel", "ps_5_1"},  {"vertex", "vs_4_0"},
+                                                                    {"vertex", "vs_5_0"}, {"compute", "cs_5_0"}},
+                                                  model_6 = {{"pixel", "ps_6_0"},
+                                                             {"pixel", "ps_6_6"},
+                                                             {"vertex", "vs_6_0"},
+                                                             {"compute", "cs_6_0"},
+                                                             {"compute", "cs_6_6"}};
+    with_each([&](compilers& with, bool fxc) {
+        const std::string file = with.write(calls::hlsl_of(calls::read()));
         std::vector<job> jobs;
-        for (const auto& [entry, profile] : targets[fxc ? 1 : 0])
-            if (entry != nullptr) jobs.push_back({file, entry, profile});
-        if (const std::string name = library(fxc); !name.empty()) with.check(name, jobs);
-    }
+        for (const auto& [entry, profile] : fxc ? models_4_and_5 : model_6) jobs.push_back({file, entry, profile});
+        with.check(library(fxc), jobs);
+    });
+}
+
+TEST_CASE("the compute kernel, whole and each kind of dispatch alone, with FXC and DXC, warnings as errors") {
+    const std::string kernel = tool::read(BUMPSHADOW_SHADER_FOLDER "/bumpshadow_bake.hlsl");
+    REQUIRE(kernel.size() > 1000);
+    with_each([&](compilers& with, bool fxc) {
+        std::vector<job> jobs;
+        for (int kind = -1; kind < 5; ++kind) {
+            const std::string alone = "#define BUMPSHADOW_BAKE_KIND " + std::to_string(kind) + "\n";
+            const std::string file = with.write((kind < 0 ? std::string() : alone) + kernel);
+            if (fxc) {
+                jobs.push_back({file, "main", "cs_5_0"});
+                jobs.push_back({file, "main", "cs_5_1"});
+            } else {
+                jobs.push_back({file, "main", "cs_6_0"});
+                jobs.push_back({file, "main", "cs_6_6"});
+            }
+        }
+        with.check(library(fxc), jobs);
+    });
 }
 
 TEST_CASE("the paste file and what is composed, with FXC and DXC, warnings as errors") {
-    if (const std::string why = missing(); !why.empty()) return skip::because("FXC and DXC: " + why);
     using namespace shaders_under_test;
-    compilers with;
-    for (const bool fxc : {true, false}) {
-        const std::string name = library(fxc), pixel = fxc ? "ps_5_0" : "ps_6_0", vertex = fxc ? "vs_5_0" : "vs_6_0";
-        if (name.empty()) continue;
+    with_each([&](compilers& with, bool fxc) {
+        const std::string pixel = fxc ? "ps_5_0" : "ps_6_0", vertex = fxc ? "vs_5_0" : "vs_6_0";
         std::vector<job> jobs;
         // Pixels may sample, vertices not.
         for (const variant& v : every_variant())
             jobs.push_back({with.write(pasted_hlsl(v)), v.samples ? "pixel" : "vertex", v.samples ? pixel : vertex});
         for (const chosen& c : every_choice()) jobs.push_back({with.write(composed_hlsl(c)), "pixel", pixel});
         jobs.push_back({with.write(example_hlsl()), "main", pixel});
-        with.check(name, jobs);
+        with.check(library(fxc), jobs);
 
         jobs.clear();
         for (const variant& v : wrong_variants()) jobs.push_back({with.write(pasted_hlsl(v)), "pixel", pixel});
-        const tool::outcome refused = with.run(name, jobs);
+        const tool::outcome refused = with.run(library(fxc), jobs);
         CHECK_MESSAGE(refused.output.find(": compiled") == std::string::npos, refused.output);
         for (const setting& s : settings)
             CHECK_MESSAGE(refused.output.find(std::string("BUMPSHADOW_") + s.name + " is 0") != std::string::npos,
                           refused.output);
-    }
+    });
 }

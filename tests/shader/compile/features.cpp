@@ -155,12 +155,12 @@ TEST_CASE("what a switch turns off leaves no instruction") {
                edge("level >= max(stored, 0.0) ? 1.0 : 0.0"));
     check_same("EDGE 1, BELOW 0: no test for lights below",
                defined("#define BUMPSHADOW_EDGE 1\n#define BUMPSHADOW_BELOW 0\n"),
-               edge("clamp(min(k, 1e30) * (level - stored) + 1.0, 0.0, 1.0)"));
+               edge("min(max(0.0, min(k, 1e30) * (level - stored) + 1.0), 1.0)"));
     check_same("EDGE 2, BELOW 0: the same, centered",
                defined("#define BUMPSHADOW_EDGE 2\n#define BUMPSHADOW_BELOW 0\n"),
-               edge("clamp(min(k, 1e30) * (level - stored) + 0.5, 0.0, 1.0)"));
+               edge("min(max(0.0, min(k, 1e30) * (level - stored) + 0.5), 1.0)"));
     check_same("EDGE 1, BELOW 1", defined(""),
-               edge("level >= 0.0 ? clamp(min(k, 1e30) * (level - stored) + 1.0, 0.0, 1.0) : 0.0"));
+               edge("level >= 0.0 ? min(max(0.0, min(k, 1e30) * (level - stored) + 1.0), 1.0) : 0.0"));
     check_same("EDGE 0, BELOW 0", defined("#define BUMPSHADOW_EDGE 0\n#define BUMPSHADOW_BELOW 0\n"),
                edge("level >= max(stored, 0.0) ? 1.0 : 0.0"));
     check_same("SAMPLE 1, shadow alone", defined("#define BUMPSHADOW_SAMPLE 1\n"), defined(""));
@@ -173,6 +173,13 @@ TEST_CASE("what a switch turns off leaves no instruction") {
                    pasted("#define BUMPSHADOW_BEARING " + std::to_string(i) + '\n',
                           "    result.x = bumpshadow_bearing(light.xy);\n"),
                    written({bearings[i]}, std::string("    result.x = ") + bearings[i] + "(light.xy);\n"));
+    for (int i = 0; i < 5; ++i) {
+        const std::string name = std::string(bearings[i]).replace(11, 0, "vertex_");
+        check_same(("BEARING " + std::to_string(i) + ", a vertex at a time").c_str(),
+                   pasted("#define BUMPSHADOW_BEARING " + std::to_string(i) + '\n',
+                          "    result.xy = bumpshadow_vertex_bearing(light, 4.0);\n"),
+                   written({name}, "    result.xy = " + name + "(light, 4.0);\n"));
+    }
     constexpr const char* levels[] = {"bumpshadow_slope", "bumpshadow_sine", "bumpshadow_angle"};
     for (int i = 0; i < 3; ++i)
         check_same(("QUANTITY " + std::to_string(i) + ": no other quantity").c_str(),
@@ -184,8 +191,8 @@ TEST_CASE("what a switch turns off leaves no instruction") {
 TEST_CASE("what is composed costs what is pasted") {
     if (const std::string why = missing(); !why.empty()) return skip::because(why);
     const char* const body =
-        "    float horizon = texture(volume, vec3(light.xy, bumpshadow_volume_coordinate("
-        "bumpshadow_bearing(light.xy), 0.03125))).r;\n"
+        "    float horizon = textureLod(volume, vec3(light.xy, bumpshadow_volume_coordinate("
+        "bumpshadow_bearing(light.xy), 0.03125)), 0.0).r;\n"
         "    result.x = bumpshadow_shadow(bumpshadow_level(light), horizon, k);\n";
     std::string functions;
     compose(choice{}, dialect::glsl, [&](std::string_view part) { functions += part; });
@@ -195,6 +202,21 @@ TEST_CASE("what is composed costs what is pasted") {
                       "    float horizon = bumpshadow_sample_volume(volume, light.xy, light, 0.03125);\n"
                       "    result.x = bumpshadow_shadow(bumpshadow_level(light), horizon, k);\n"),
                pasted("", body));
+    functions.clear();
+    compose(choice{.decode = decoder::flat}, dialect::glsl, [&](std::string_view part) { functions += part; });
+    check_same(
+        "one slice, composed: no bearing", shader(functions, switched_shadow),
+        written({"bumpshadow_slope"},
+                "    float level = bumpshadow_slope(light);\n"
+                "    result.x = level >= 0.0 ? min(max(0.0, min(k, 1e30) * (level - stored) + 1.0), 1.0) : 0.0;\n"));
+    functions.clear();
+    compose(choice{.decode = decoder::arc}, dialect::glsl, [&](std::string_view part) { functions += part; });
+    check_same("arc, sampling function",
+               pasted("#define BUMPSHADOW_SAMPLE 1\n",
+                      "    result.x = bumpshadow_sample_arc(volume, light.xy, light, 0.2, 1.6, -0.3);\n"),
+               shader(functions,
+                      "    float w = 1.6 * fract(bumpshadow_bearing(light.xy) - 0.2) - 0.3;\n"
+                      "    result.x = textureLod(volume, vec3(light.xy, w), 0.0).r;\n"));
     functions.clear();
     compose(choice{.decode = decoder::fourier_3, .square_root = false}, dialect::glsl,
             [&](std::string_view part) { functions += part; });

@@ -61,13 +61,23 @@ std::size_t count(std::string_view text, std::string_view what) {
     return found;
 }
 
-// Names that do not carry the prefix.
+// Names that do not carry the prefix, and variables, which snippets do not have.
 std::vector<std::string> leaks(std::string_view text) {
     std::vector<std::string> names;
     for (const scan::definition& d : scan::definitions_of(text)) {
         const bool macro = d.what == scan::kind::macro;
         if (!d.name.starts_with(macro ? "BUMPSHADOW_" : "bumpshadow_") || d.what == scan::kind::variable)
             names.push_back(d.name);
+    }
+    return names;
+}
+
+// The same for a whole shader, whose buffers and entry point have names: in GLSL those of blocks and of their members.
+std::vector<std::string> leaks_of_shader(std::string_view text) {
+    std::vector<std::string> names;
+    for (const scan::definition& d : scan::definitions_of(text)) {
+        const bool macro = d.what == scan::kind::macro;
+        if (!d.name.starts_with(macro ? "BUMPSHADOW_" : "bumpshadow_") && d.name != "main") names.push_back(d.name);
     }
     return names;
 }
@@ -109,7 +119,7 @@ TEST_CASE("these shaders call every short name and every sampling function") {
             const bool sample = d.name.starts_with("bumpshadow_sample_");
             sampling += sample ? 1 : 0;
             if (sample || d.name == "bumpshadow_bearing" || d.name == "bumpshadow_level" ||
-                d.name == "bumpshadow_shadow")
+                d.name == "bumpshadow_shadow" || d.name == "bumpshadow_vertex_bearing")
                 CHECK_MESSAGE(calls.find(d.name + '(') != std::string::npos, d.name);
         }
         CHECK(sampling >= 9);
@@ -144,10 +154,19 @@ TEST_CASE("a value that a switch does not have is refused") {
     }
 }
 
-TEST_CASE("the example of the opening comment compiles") {
+TEST_CASE("the precisions that the paste file asks for are those of floats and of all samplers that it takes") {
+    const std::string lines = es_precision();
+    CHECK(count(lines, "precision highp ") == count(lines, ";\n"));
+    for (const char* type : {"float", "sampler2D", "sampler3D", "sampler2DArray", "samplerCube"}) {
+        CHECK(count(lines, std::string("highp ") + type + ';') == 1);
+    }
+}
+
+TEST_CASE("the examples of the opening comment compile") {
     const std::string compiler = glslang();
     if (compiler.empty()) return;
     CHECK(example_glsl(versions[0]).find("void main() {") != std::string::npos);
+    CHECK(example_glsl(versions[0]).find("bumpshadow_pick_bearing(pair") != std::string::npos);
     for (const glsl_version& version : versions)
         if (!version.vulkan) check_glsl(compiler, version, {{"example", example_glsl(version)}});
     const tool::outcome result = run_hlsl(compiler, example_hlsl(), "frag", "main");
@@ -179,7 +198,23 @@ TEST_CASE("no name without the prefix leaks") {
             CHECK(text.find('#') == std::string::npos);
         }
     }
+    for (const char* name : {"bumpshadow_bake.glsl", "bumpshadow_bake.hlsl"}) {
+        const std::string text = tool::read(std::string(BUMPSHADOW_SHADER_FOLDER "/") + name);
+        const std::vector<std::string> names = leaks_of_shader(text);
+        CHECK_MESSAGE(names.empty(), name, ": ", (names.empty() ? "" : names[0]));
+        std::size_t blocks = 0;
+        for (const scan::definition& d : scan::definitions_of(text)) blocks += d.name.ends_with("_block") ? 1 : 0;
+        CHECK(blocks == (text.find("cbuffer") == std::string::npos ? 5 : 1));
+    }
     // What would be found.
+    CHECK(leaks_of_shader("precision highp float;\nlayout(local_size_x = 16, local_size_y = 4) in;\n"
+                          "layout(std430, binding = 0) readonly buffer Heights { float heights[]; };\n"
+                          "layout(std140, binding = 4) uniform Block { ivec4 bumpshadow_a, b; };\n") ==
+          std::vector<std::string>{"Heights", "heights", "Block", "b"});
+    CHECK(leaks_of_shader("StructuredBuffer<float> heights : register(t0);\n"
+                          "cbuffer Block : register(b4) { int4 dispatch; };\n"
+                          "[numthreads(16, 4, 1)]\nvoid kernel(uint3 id : SV_DispatchThreadID) { }\n") ==
+          std::vector<std::string>{"heights", "Block", "dispatch", "kernel"});
     const char* const bad =
         "#define WIDTH 2\nfloat helper(float v) { return v; }\nstruct pair { float a, b; };\n"
         "const float bumpshadow_pi = 3.0f;\nfloat bumpshadow_fine() { float local = 1.0f; return local; }\n";

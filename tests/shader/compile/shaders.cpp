@@ -21,7 +21,8 @@ std::string define(const char* name, int value) {
 constexpr const char* short_names =
     "    vec3 light = vec3(value.x, value.y, value.z);\n"
     "    sum = vec4(bumpshadow_bearing(vec2(light.x, light.y)), bumpshadow_level(light),\n"
-    "               bumpshadow_shadow(bumpshadow_level(light), value.w, 8.0f), value.w);\n";
+    "               bumpshadow_shadow(bumpshadow_level(light), value.w, 8.0f),\n"
+    "               bumpshadow_vertex_bearing(light, value.w).y);\n";
 
 constexpr const char* glsl_samplers =
     "UNIFORM(0) sampler3D volume;\nUNIFORM(1) sampler2DArray layers;\nUNIFORM(2) sampler2D first;\n"
@@ -29,6 +30,8 @@ constexpr const char* glsl_samplers =
 constexpr const char* glsl_samples =
     "    sum.x += bumpshadow_sample_volume(volume, value.xy, light, value.w);\n"
     "    sum.x += bumpshadow_sample_slices(layers, value.xy, light, value.w, 16.0f);\n"
+    "    sum.x += bumpshadow_sample_arc(volume, value.xy, light, value.x, value.y, value.w);\n"
+    "    sum.x += bumpshadow_sample_arc_slices(layers, value.xy, light, value.x, value.y, value.w, 5.0f);\n"
     "    sum.x += bumpshadow_sample_grouped(layers, value.xy, light, value.w, 16.0f);\n"
     "    sum.x += bumpshadow_sample_overlapping(layers, value.xy, light, value.w, 12.0f);\n"
     "    sum.x += bumpshadow_sample_sine_layers(layers, value.xy, light);\n"
@@ -43,6 +46,8 @@ constexpr const char* hlsl_textures =
 constexpr const char* hlsl_samples =
     "    sum.x += bumpshadow_sample_volume(volume, how, value.xy, light, value.w);\n"
     "    sum.x += bumpshadow_sample_slices(layers, how, value.xy, light, value.w, 16.0f);\n"
+    "    sum.x += bumpshadow_sample_arc(volume, how, value.xy, light, value.x, value.y, value.w);\n"
+    "    sum.x += bumpshadow_sample_arc_slices(layers, how, value.xy, light, value.x, value.y, value.w, 5.0f);\n"
     "    sum.x += bumpshadow_sample_grouped(layers, how, value.xy, light, value.w, 16.0f);\n"
     "    sum.x += bumpshadow_sample_overlapping(layers, how, value.xy, light, value.w, 12.0f);\n"
     "    sum.x += bumpshadow_sample_sine_layers(layers, how, value.xy, light);\n"
@@ -51,9 +56,9 @@ constexpr const char* hlsl_samples =
     "    sum.x += bumpshadow_sample_fourier_5(first, second, how, value.xy, light, value, value, value.xy);\n"
     "    sum.x += bumpshadow_sample_ssbump(first, how, value.xy, light);\n";
 
+// With the precisions that the paste file asks for in place of that of numbers alone.
 std::string head(const glsl_version& version) {
-    const std::string header = version.header;
-    return header.find(" es\n") == std::string::npos ? header : header + std::string(es_precision);
+    return decoders::replaced(version.header, "precision highp float;\n", es_precision());
 }
 
 std::string glsl_main(const std::string& body) {
@@ -61,10 +66,10 @@ std::string glsl_main(const std::string& body) {
            "    color = sum;\n}\n";
 }
 
-// The lines of the opening comment from "Before:" to the next empty one, as code.
-std::string example(const std::string& file) {
-    std::size_t at = file.find('\n', file.find("// Before:")) + 1;
-    at = file.find('\n', at) + 1;  // an empty one
+// Lines of the opening comment as code: those of a paragraph after the one that starts with `mark`, counted from 0.
+std::string paragraph(const std::string& file, const char* mark, int number) {
+    std::size_t at = file.find(std::string("// ") + mark);
+    for (int i = 0; i <= number; ++i) at = file.find("\n//\n", at) + 4;
     std::string text;
     while (file.compare(at, 5, "//   ") == 0) {
         const std::size_t end = file.find('\n', at) + 1;
@@ -79,13 +84,18 @@ constexpr const char* surroundings =
     "float shadow_map_factor() { return 0.5; }\n"
     "const vec3 ambient = vec3(0.1, 0.1, 0.1);\nconst vec3 light_color = vec3(1.0, 0.9, 0.8);\n";
 
+std::string examples(const std::string& file) {
+    return paragraph(file, "Before:", 0) +
+           "void vertex_part(VEC3 to_light, VEC3 tangent, VEC3 bitangent, VEC3 normal, float max_slope, out VEC2 "
+           "pair,\n"
+           "                 out float level) {\n" +
+           paragraph(file, "A vertex at a time:", 0) +
+           "}\nfloat pixel_part(VEC2 uv, VEC2 pair, float level, float max_slope) {\n    float shadow = 1.0;\n" +
+           paragraph(file, "A vertex at a time:", 1) + "    return shadow;\n}\n";
+}
+
 // Declared below what was composed, which is to need nothing from above.
 constexpr const char* three = "vec3 three(vec4 v) { return vec3(v.x, v.y, v.z); }\n";
-
-std::string composed_body(const chosen& what) {
-    return "    vec3 light = vec3(value.x, value.y, value.z);\n    float result;\n" +
-           decoders::body_of(*what.use, what.choice) + "    sum = vec4(result, result, result, result);\n";
-}
 
 }  // namespace
 
@@ -116,6 +126,17 @@ std::string paste_file(bool hlsl) {
     return tool::read(std::string(BUMPSHADOW_SHADER_FOLDER "/bumpshadow.") + (hlsl ? "hlsl" : "glsl"));
 }
 
+std::string es_precision() {
+    const std::string file = paste_file(false), opening = file.substr(0, file.find("// Switches"));
+    std::string lines;
+    for (std::size_t at = 0; (at = opening.find("precision ", at)) != std::string::npos;) {
+        const std::size_t end = opening.find(';', at) + 1;
+        lines += opening.substr(at, end - at) + '\n';
+        at = end;
+    }
+    return lines;
+}
+
 std::string pasted_glsl(const variant& v, const glsl_version& version) {
     const std::string body = std::string(short_names) + (v.samples ? glsl_samples : "");
     return head(version) + v.defines + paste_file(false) + (v.samples ? glsl_samplers : "") + glsl_main(body);
@@ -133,12 +154,13 @@ std::string pasted_hlsl(const variant& v) {
 
 std::string example_glsl(const glsl_version& version) {
     const std::string file = paste_file(false);
-    return head(version) + file + surroundings + example(file);
+    return head(version) + file + surroundings + decoders::replaced(examples(file), "VEC", "vec");
 }
 
 std::string example_hlsl() {
     const std::string file = paste_file(true);
-    return file + decoders::replaced(shaders::hlsl(surroundings), "const", "static const") + example(file);
+    return file + decoders::replaced(shaders::hlsl(surroundings), "const", "static const") +
+           decoders::replaced(examples(file), "VEC", "float");
 }
 
 std::vector<chosen> every_choice() {
@@ -147,6 +169,7 @@ std::vector<chosen> every_choice() {
         const auto add = [&](const std::string& name, const choice& c) { all.push_back({u.name + name, &u, c}); };
         add("", {.decode = u.decode});
         if (decoders::is_fourier(u.decode)) add(", roots", {.decode = u.decode, .square_root = true});
+        if (u.bearing) add(", vertex", {.decode = u.decode, .vertex = true});
         if (u.decode != decoder::volume) continue;
         for (int i = 0; i < 5; ++i) {
             add(", bearing " + std::to_string(i), {.bearing = bearing_function(i)});
@@ -162,6 +185,11 @@ std::string composed(const chosen& what, bool hlsl) {
     bumpshadow::shader_text::compose(what.choice, hlsl ? dialect::hlsl : dialect::glsl,
                                      [&](std::string_view part) { text += part; });
     return text;
+}
+
+std::string composed_body(const chosen& what) {
+    return "    vec3 light = vec3(value.x, value.y, value.z);\n    float result;\n" +
+           decoders::body_of(*what.use, what.choice) + "    sum = vec4(result, result, result, result);\n";
 }
 
 std::string composed_glsl(const chosen& what, const glsl_version& version) {

@@ -18,11 +18,7 @@ struct glsl_version {
     bool compute, vulkan;
 };
 
-inline constexpr std::string_view es_precision =
-    "precision highp float;\nprecision highp sampler2D;\nprecision highp sampler3D;\n"
-    "precision highp sampler2DArray;\nprecision highp samplerCube;\n";
-
-// Precision is added to the headers of ES where samplers are used.
+// Where samplers are used, the lines that the head of the paste file names are added to the headers of ES.
 inline constexpr glsl_version versions[] = {
     {"330", "#version 330 core\n#define IN in\n#define UNIFORM(n) uniform\n", false, false},
     {"450", "#version 450 core\n#define IN in\n#define UNIFORM(n) uniform\n", true, false},
@@ -53,13 +49,15 @@ struct variant {
 [[nodiscard]] std::vector<variant> wrong_variants();
 
 [[nodiscard]] std::string paste_file(bool hlsl);
+// Statements of precision that the head of the paste file asks for in GLSL ES.
+[[nodiscard]] std::string es_precision();
 
 // A fragment shader that calls every short name and, where `samples`, every sampling function.
 [[nodiscard]] std::string pasted_glsl(const variant& v, const glsl_version& version);
 // Two entry points: pixel and vertex, the second of which calls no sampling function.
 [[nodiscard]] std::string pasted_hlsl(const variant& v);
 
-// The paste file with the example of its opening comment, completed.
+// The paste file with both examples of its opening comment, completed.
 [[nodiscard]] std::string example_glsl(const glsl_version& version);
 [[nodiscard]] std::string example_hlsl();
 
@@ -75,6 +73,8 @@ struct chosen {
 [[nodiscard]] std::vector<chosen> every_choice();
 
 [[nodiscard]] std::string composed(const chosen& what, bool hlsl);
+// Statements that use it: they set the vec4 `sum` from the vec4 `value`, with a function `three` of it.
+[[nodiscard]] std::string composed_body(const chosen& what);
 [[nodiscard]] std::string composed_glsl(const chosen& what, const glsl_version& version);
 // One entry point: pixel.
 [[nodiscard]] std::string composed_hlsl(const chosen& what);

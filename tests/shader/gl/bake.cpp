@@ -91,6 +91,23 @@ TEST_CASE("the compute kernel's slopes are those of the cascade") {
     }
 }
 
+TEST_CASE("the compute kernel with sizes, radii, holes and rows that lie apart") {
+    constexpr const char* names[] = {"repeat", "clamp", "mirror", "open"};
+    for (const shader_run::backend& with : backends) {
+        if (!runs(with)) continue;
+        const std::string shader = shader_of(with);
+        for (int edge = 0; edge < 4; ++edge) {
+            bake_kernel::agreement all;
+            for (const trial& t : bake_kernel::unusual(edge_mode(edge))) {
+                CAPTURE(with.name);
+                CAPTURE(names[edge]);
+                all.include(check(t, run(t, with, shader)));
+            }
+            print(all, std::string(with.name) + ", unusual maps, " + names[edge]);
+        }
+    }
+}
+
 // A comparison that could not fail would be worth nothing.
 TEST_CASE("a changed kernel is noticed") {
     const trial t("towers", bake_kernel::towers({64, 64}, 2), edge_mode::repeat, shapes::directions(8, 0.01));

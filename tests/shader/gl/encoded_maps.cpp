@@ -1,7 +1,6 @@
 #include "shader/gl/encoded_maps.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <initializer_list>
@@ -13,6 +12,8 @@
 #include <bumpshadow/encode/reduce.hpp>
 #include <bumpshadow/horizon/cascade.hpp>
 #include <bumpshadow/reference/shadow.hpp>
+
+#include "shader/gl/filter_bounds.hpp"
 
 namespace encoded_maps {
 
@@ -86,58 +87,14 @@ void set_sampling(encoded& e, std::string_view function, std::initializer_list<s
     }
 }
 
-sampler how_of(int mips) {
-    sampler how;
-    if (mips > 1) how.levels = filter_mode::linear;
-    return how;
+sampler how_of(int mips, address_mode z = address_mode::repeat) {
+    return {.z = z, .levels = mips > 1 ? filter_mode::linear : filter_mode::point};
 }
 
 const char* text_of(texel_format format) {
-    switch (format) {
-        case texel_format::r8: return "r8";
-        case texel_format::r16: return "r16";
-        case texel_format::r16f: return "r16f";
-        case texel_format::bc4: return "bc4";
-        case texel_format::rgb565: return "rgb565";
-        default: return "rgba8";
-    }
-}
-
-// A slice is one channel: the error of the filter is that of the horizon.
-float bound_of(const tangent_volume& e) {
-    if (e.format == texel_format::bc4) return filter_bc4;
-    if (e.format != texel_format::r8) return exact;
-    return e.kind == texture_kind::volume ? filter_3d : filter_2d;
-}
-
-// Each coefficient is off by the error of the filter times its scale; those of a pair are multiplied by sine and
-// cosine, which are at most as large as the pair is long. Roots are squared after that: the derivative of r |r| is
-// 2 |r|, and r may be off itself.
-float bound_of(const fourier& e) {
-    if (e.bits == 16) return exact;
-    const fourier_decoding d = decoding_of(e);
-    const auto error = [&](float scale, float offset) {
-        const float step = filter_2d * scale;
-        const float root = std::max(std::abs(offset), std::abs(offset + scale));
-        return e.square_root ? step * (2.0f * root + step) : step;
-    };
-    float sum = 0.0f;
-    std::array<float, 8> waves{};
-    std::size_t count = 0;
-    for (int t = 0; t < texture_count(e); ++t) {
-        const std::array<int, 4> channels = channels_of(e, t);
-        for (int c = 0; c < 4; ++c) {
-            if (channels[std::size_t(c)] < 0) continue;
-            const bool one = channels[1] < 0;
-            const float here = error(one ? d.constant_scale : d.scale[t][c], one ? d.constant_offset : d.offset[t][c]);
-            if (channels[std::size_t(c)] == 0)
-                sum += here;
-            else
-                waves[count++] = here;
-        }
-    }
-    for (std::size_t i = 0; i + 1 < count; i += 2) sum += std::hypot(waves[i], waves[i + 1]);
-    return sum;
+    constexpr const char* names[] = {"r8",      "rg8",  "rgba8",   "r16",    "rgba16", "r16f",
+                                     "rgba16f", "r32f", "rgba32f", "rgb565", "bc1",    "bc4"};
+    return names[int(format)];
 }
 
 }  // namespace
@@ -168,15 +125,14 @@ void maps::add_all() {
         for (const texel_format format : {r8, r16, r16f}) add({{16, 0.0, cubic}, {}, format, kind}, 1);
         for (const texel_format format : {r8, r16f}) add({{16, 0.0, cubic}, {}, format, kind}, mip_count, ", mips");
         add({{11, kind == volume ? 0.03 : -1.7, cubic}, {}, r16f, kind}, 1, ", 11 slices, phase");
+        for (const texel_format format : {r8, r16f}) add({{5, 0.03, cubic, 0.4}, {}, format, kind}, 1, ", arc");
     }
     add({{16, 0.0, cubic}, {}, bc4, array}, 1);
-    for (int i = 0; i < 5; ++i)
-        add({{16, 0.0, bearing_function(i)}, {}, r16f}, 1,
-            i == 0   ? ", exact"
-            : i == 1 ? ", quintic"
-            : i == 2 ? ", cubic"
-            : i == 3 ? ", octant"
-                     : ", diamond");
+    add({{5, -1.67, cubic, 0.4}, {}, r8, array}, mip_count, ", arc, mips");
+    add({{1, 0.03, cubic, 0.4}, {}, r8, texture_kind::flat}, 1);
+    for (const texture_kind kind : {volume, array}) add_slopes(kind);
+    constexpr const char* functions[] = {", exact", ", quintic", ", cubic", ", octant", ", diamond"};
+    for (int i = 0; i < 5; ++i) add({{16, 0.0, bearing_function(i)}, {}, r16f}, 1, functions[i]);
     add({{16, 0.0, cubic}, {quantity::sine, infinite}, r16f}, 1, ", sine");
     add({{16, 0.0, cubic}, {quantity::angle, 3.0f}, r16f}, 1, ", angle");
 
@@ -208,31 +164,51 @@ void maps::add_all() {
 void maps::add(const tangent_volume& v, int mips, const char* remark) {
     const texture t = make(layout_of(v, extent, mips));
     REQUIRE(bool(pack_tangent_volume(levels(mips), directions_, v, {}, t)));
-    const sampler how = how_of(mips);
-    const std::string map = name(), phase = number(v.slices.phase), slices = number(v.slices.count);
-    const bool volume = v.kind == texture_kind::volume;
+    add(v, t, mips, remark);
+}
+
+// The first bearing is the first layer, as in a texture: [bearing][y][x].
+void maps::add_slopes(texture_kind kind) {
+    const slice_set slices{int(directions_.size()), 0.0, bearing_function::exact};
+    const tangent_volume v{slices, {quantity::slope, 1.0f}, texel_format::r32f, kind};
+    const std::span<const float> slopes = levels_[0].values;
+    const texture t = make(layout_of(v, extent, 1));
+    REQUIRE(t.bytes.size() == slopes.size_bytes());
+    std::copy_n(std::as_bytes(slopes).begin(), slopes.size_bytes(), t.bytes.begin());
+    add(v, t, 1, ", slopes as baked");
+    all_.back().bound = exact * *std::max_element(slopes.begin(), slopes.end());
+}
+
+void maps::add(const tangent_volume& v, const texture& t, int mips, const char* remark) {
+    const bool volume = v.kind == texture_kind::volume, flat = v.kind == texture_kind::flat, arc = is_arc(v.slices);
+    const sampler how = how_of(mips, arc ? address_mode::clamp : address_mode::repeat);
+    const arc_coordinate c = arc_coordinate_of(v);
+    const double other = volume ? coordinate_offset(v) : v.slices.phase;
+    std::string map = name(), slices = number(v.slices.count), constants = number(arc ? double(c.start) : other);
+    if (arc) constants += ", " + number(double(c.scale)) + ", " + number(double(c.offset));
     encoded e{};
-    e.name = std::string(volume ? "tangent volume, " : "slices, array, ") + text_of(v.format) + remark;
+    constexpr const char* kinds[] = {"one slice, ", "slices, array, ", "cube, ", "tangent volume, "};
+    e.name = kinds[int(v.kind)] + std::string(text_of(v.format)) + remark;
     e.switches = switches_of(v.slices, v.scale);
     e.textures = {{map, t, how}};
     e.scale = v.scale;
     e.bound = bound_of(v);
     e.mips = mips;
     e.expected = [=](vec2 uv, vec3 light, float level) { return horizon(v, const_texture(t), how, uv, light, level); };
+    if (flat) e.code = filled("horizon = sample_$0(uv, level).x;\n", {map});
     if (volume) {
-        const std::string offset = number(coordinate_offset(v));
         e.code = filled(
-            "float w = bumpshadow_volume_coordinate(bumpshadow_bearing(vec2(light.x, light.y)), $0);\n"
+            "float w = bumpshadow_$2_coordinate(bumpshadow_bearing(vec2(light.x, light.y)), $0);\n"
             "horizon = sample_$1(vec3(uv.x, uv.y, w), level).x;\n",
-            {offset, map});
-        set_sampling(e, "bumpshadow_sample_volume", {offset});
-    } else {
+            {constants, map, arc ? "arc" : "volume"});
+        set_sampling(e, arc ? "bumpshadow_sample_arc" : "bumpshadow_sample_volume", {constants});
+    } else if (!flat) {
         e.code = filled(
-            "vec3 p = bumpshadow_tangent_layers(bumpshadow_bearing(vec2(light.x, light.y)), $0, $1);\n"
+            "vec3 p = bumpshadow_$3_layers(bumpshadow_bearing(vec2(light.x, light.y)), $0, $1);\n"
             "horizon = bumpshadow_tangent_horizon(sample_$2(vec3(uv.x, uv.y, p.x), level).x,\n"
             "                                     sample_$2(vec3(uv.x, uv.y, p.y), level).x, p.z);\n",
-            {phase, slices, map});
-        set_sampling(e, "bumpshadow_sample_slices", {phase, slices});
+            {constants, slices, map, arc ? "arc" : "tangent"});
+        set_sampling(e, arc ? "bumpshadow_sample_arc_slices" : "bumpshadow_sample_slices", {constants, slices});
     }
     all_.push_back(std::move(e));
 }
@@ -316,9 +292,11 @@ void maps::add(const sine_layers& s, sine_way way) {
             "    bumpshadow_factors_$1_cube(sample_$2(light, 0.0f)));\n",
             {map, form, e.textures[1].name});
         if (way == sine_way::biased) set_sampling(e, "bumpshadow_sample_with_cube");
-        // Each of the cube's four channels makes a factor, of at most 2.008 times its error, for a horizon of at most
-        // 1; the factors themselves add up to hardly more than 1.
-        e.bound = filter_2d * (1.1f + 4.0f * 2.008f);
+        // Horizons are at most 1. Each texel of the layers is off by filter_2d times its factor. Factors add up to 1,
+        // by half a step of a byte in each of the four channels, which 2.008 times become factors, more: 4 / 255; the
+        // published form leaks 1 / 255 from each of the three channels of layer 0 that are at rest, or from all four.
+        // And the four channels are off by filter_cube themselves.
+        e.bound = filter_2d * (1.0f + 8.1f / 255.0f) + 4.0f * 2.008f * filter_cube;
         const with_factor_cube<const_texture> with{first, cube, c.form};
         e.expected = [=](vec2 uv, vec3 light, float level) { return horizon(s, with, {}, uv, light, level); };
     }

@@ -41,21 +41,13 @@ struct encoded {
     std::string sampling[2];
     std::vector<gl::bound_texture> textures;
     bumpshadow::horizon_scale scale;
-    // What the horizon, over what stands for 1, may differ by: see below.
+    // What the horizon, over what stands for 1, may differ by: see filter_bounds.hpp.
     float bound;
     bool brightness = false;  // in place of a horizon
     int mips = 1;
     // Of C++: the horizon, or the brightness, by reference/shadow.hpp.
     std::function<float(vec2 uv, vec3 light, float level)> expected;
 };
-
-// Largest differences of a filtered texel of the software renderer, 2D and 3D; of 16 bits and floats 2e-6. A decoder
-// whose horizon is a mean of texels, its weights adding up to 1, is off by as much; other bounds say what they are
-// made of.
-inline constexpr float filter_2d = 0.006f, filter_3d = 0.0067f;
-// 565 is widened to 8 bits, blocks are decoded to 8 bits, before they are filtered.
-inline constexpr float filter_565 = 0.011f, filter_bc4 = 0.0067f + filter_2d;
-inline constexpr float exact = 1e-4f;  // 16 bits and floats
 
 class maps {
 public:
@@ -68,6 +60,9 @@ public:
 private:
     void add_all();
     void add(const bumpshadow::tangent_volume& v, int mips, const char* remark = "");
+    void add(const bumpshadow::tangent_volume& v, const bumpshadow::texture& t, int mips, const char* remark);
+    // Slopes as they are baked, which a float texture takes.
+    void add_slopes(bumpshadow::texture_kind kind);
     void add(const bumpshadow::slice_layers& s, int mips);
     enum class sine_way : unsigned char { array, half, two, published, biased };  // the last two: factors from a cube
     void add(const bumpshadow::sine_layers& s, sine_way way);
