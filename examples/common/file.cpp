@@ -59,6 +59,26 @@ std::vector<unsigned char> read_file(const std::filesystem::path& path) {
     return bytes;
 }
 
+output_folder::output_folder(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::path whole = std::filesystem::absolute(path, error).lexically_normal();
+    if (!whole.has_filename()) whole = whole.parent_path();
+    for (std::filesystem::path p = whole; !p.empty() && !std::filesystem::exists(p, error); p = p.parent_path())
+        created_.push_back(p);
+    error.clear();
+    std::filesystem::create_directories(whole, error);
+    if (!error && !std::filesystem::is_directory(whole, error) && !error)
+        error = std::make_error_code(std::errc::not_a_directory);
+    if (!error) return;
+    remove_created();
+    throw failure("cannot create folder " + path.string() + ": " + error.message());
+}
+
+void output_folder::remove_created() {
+    std::error_code ignored;
+    for (const std::filesystem::path& p : created_) std::filesystem::remove(p, ignored);
+}
+
 output_file::output_file(std::filesystem::path target) : target_(std::move(target)), part_(target_.string() + ".part") {
     handle_signals();
     std::error_code ignored;

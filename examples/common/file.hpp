@@ -18,6 +18,22 @@ struct failure : std::runtime_error {
 // All bytes of a file. Throws failure.
 [[nodiscard]] std::vector<unsigned char> read_file(const std::filesystem::path& path);
 
+// A folder and its missing parents; what was created goes again, as far as it is empty, unless kept. Throws failure.
+class output_folder {
+public:
+    explicit output_folder(const std::filesystem::path& path);
+    ~output_folder() { remove_created(); }
+    output_folder(const output_folder&) = delete;
+    output_folder& operator=(const output_folder&) = delete;
+
+    void keep() { created_.clear(); }
+
+private:
+    void remove_created();
+
+    std::vector<std::filesystem::path> created_;  // deepest first
+};
+
 // A file that exists whole or not at all: bytes go to `target` + ".part", which commit() gives its name.
 // Without a commit, after any failure and on SIGINT, SIGTERM and SIGHUP, the part is removed.
 class output_file {

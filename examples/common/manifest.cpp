@@ -1,6 +1,7 @@
 #include "common/manifest.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <string>
@@ -40,19 +41,19 @@ std::vector<height_source> read_manifest(const std::filesystem::path& folder) {
         if (lines[i].empty()) continue;
         std::vector<std::string> cells = split(lines[i], '\t');
         cells.resize(std::max(cells.size(), names.size()));
-        const auto number = [&](const std::string& text) {
+        const auto number = [&](const std::string& text, bool positive) {
             char* end = nullptr;
             const double value = std::strtod(text.c_str(), &end);
-            if (text.empty() || *end != '\0')
+            if (text.empty() || end != text.c_str() + text.size() || !std::isfinite(value) || (positive && value <= 0.0))
                 throw failure("cannot use " + path.string() + ": line " + std::to_string(i + 1) + " has '" + text +
-                              "' for a number");
+                              "' for a " + (positive ? "positive" : "finite") + " number");
             return value;
         };
         const std::vector<std::string> sides = split(cells[size], ' ');
         height_source map;
         map.path = (folder / cells[file]).string();
-        map.height_scale = number(cells[scale]);
-        map.texel_size = {number(sides.front()), number(sides.back())};
+        map.height_scale = number(cells[scale], false);
+        map.texel_size = {number(sides.front(), true), number(sides.back(), true)};
         map.edge = cells[tiles] == "yes" ? bumpshadow::edge_mode::repeat : bumpshadow::edge_mode::clamp;
         maps.push_back(map);
     }

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace examples {
@@ -16,6 +17,9 @@ std::string format(const char* pattern, Values... values) {
 
 // A JSON string.
 [[nodiscard]] std::string quoted(const std::string& text);
+
+// Text as HTML, also between quotes.
+[[nodiscard]] std::string escaped(std::string_view text);
 
 // A Markdown table with its columns lined up; the first column is text, the others are numbers.
 [[nodiscard]] std::string lined_up(const std::vector<std::vector<std::string>>& rows);

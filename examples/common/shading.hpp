@@ -8,6 +8,8 @@
 
 #include <glm/ext/vector_float3.hpp>
 
+#include <bumpshadow/height_map.hpp>
+#include <bumpshadow/reference/sampler.hpp>
 #include <bumpshadow/reference/shade.hpp>
 
 #include "common/file.hpp"
@@ -21,6 +23,17 @@ namespace examples {
     // The cosine of 90 degrees is not quite 0.
     const double flat = elevation == 90.0 ? 0.0 : std::cos(rise);
     return {std::cos(turn) * flat, std::sin(turn) * flat, std::sin(rise)};
+}
+
+// Textures go on as the map does. What is open has no texture beyond, and clamps.
+[[nodiscard]] inline bumpshadow::address_mode address_of(bumpshadow::edge_mode edge) {
+    switch (edge) {
+        case bumpshadow::edge_mode::repeat: return bumpshadow::address_mode::repeat;
+        case bumpshadow::edge_mode::mirror: return bumpshadow::address_mode::mirror;
+        case bumpshadow::edge_mode::clamp:
+        case bumpshadow::edge_mode::open: break;
+    }
+    return bumpshadow::address_mode::clamp;
 }
 
 // What a picture is made of, texel by texel.

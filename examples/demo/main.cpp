@@ -82,38 +82,6 @@ void run_all(const bs::threads& run, std::size_t count, const Body& body) {
     if (first) std::rethrow_exception(first);
 }
 
-// The folder and its missing parents; what was created goes again, as far as it is empty, unless kept.
-class output_folder {
-public:
-    explicit output_folder(const std::filesystem::path& path) {
-        std::error_code error;
-        std::filesystem::path whole = std::filesystem::absolute(path, error).lexically_normal();
-        if (!whole.has_filename()) whole = whole.parent_path();
-        for (std::filesystem::path p = whole; !p.empty() && !std::filesystem::exists(p, error); p = p.parent_path())
-            created_.push_back(p);
-        error.clear();
-        std::filesystem::create_directories(whole, error);
-        if (!error && !std::filesystem::is_directory(whole, error) && !error)
-            error = std::make_error_code(std::errc::not_a_directory);
-        if (!error) return;
-        remove_created();
-        throw failure("cannot create folder " + path.string() + ": " + error.message());
-    }
-    ~output_folder() { remove_created(); }
-    output_folder(const output_folder&) = delete;
-    output_folder& operator=(const output_folder&) = delete;
-
-    void keep() { created_.clear(); }
-
-private:
-    void remove_created() {
-        std::error_code ignored;
-        for (const std::filesystem::path& p : created_) std::filesystem::remove(p, ignored);
-    }
-
-    std::vector<std::filesystem::path> created_;  // deepest first
-};
-
 struct error_figures {
     std::size_t samples = 0;
     double mean = 0.0, percentile_99 = 0.0;  // degrees of elevation

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "common/report_text.hpp"
+
 namespace examples {
 namespace {
 
@@ -49,23 +51,6 @@ show();
 play(!matchMedia("(prefers-reduced-motion: reduce)").matches);
 </script>
 )js";
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
-}
 
 std::string figure(const std::string& file, std::string_view caption) {
     return "<figure><img src=\"" + file + "\" alt=\"" + escaped(caption) + "\"><figcaption>" + escaped(caption) +

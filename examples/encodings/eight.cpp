@@ -8,7 +8,7 @@
 #include <bumpshadow/shader/shader.hpp>
 
 #include "common/report_text.hpp"
-#include "encodings/seen.hpp"
+#include "encodings/planes.hpp"
 #include "encodings/stored.hpp"
 
 namespace examples {
@@ -17,44 +17,46 @@ namespace {
 namespace bs = bumpshadow;
 namespace shader = bumpshadow::shader;
 
-double measure(const sample_map& map, const eight_setup& s) {
-    stored texture(bs::layout_of(s.encoding, map.extent));
+score measure(const sample_map& map, const eight_setup& s) {
+    const horizons small = s.reduced > 1 ? reduced(map.every(32), s.encoding.scale, s.reduced) : horizons{};
+    const bs::horizon_map slopes = s.reduced > 1 ? small.view : map.every(32);
+    stored texture(bs::layout_of(s.encoding, slopes.extent));
     const bs::texture view = texture.view();
     const std::vector<glm::dvec2> directions = map.directions_of(32);
-    expect(s.averaged ? bs::pack_sine_layers_averaged(map.every(32), directions, s.encoding, {}, {&view, 1})
-                      : bs::pack_sine_layers(map.every(32), directions, s.encoding, {}, {&view, 1}));
+    expect(s.averaged ? bs::pack_sine_layers_averaged(slopes, directions, s.encoding, {}, {&view, 1})
+                      : bs::pack_sine_layers(slopes, directions, s.encoding, {}, {&view, 1}));
     const auto layer0 = texel_centers(texture, 0, map.extent), layer1 = texel_centers(texture, 1, map.extent);
 
-    seen found = unseen(map, s.encoding.scale);
-    const auto look = [&](const auto& factors_of) {
-        float* to = found.horizons.data();
-        for (const glm::dvec2 d : map.directions) {
-            const shader::bumpshadow_eight factors = factors_of(d);
-            for (std::size_t i = 0; i < layer0.size(); ++i)
-                *to++ = shader::bumpshadow_sine_layers_factors(layer0[i], layer1[i], factors);
-        }
+    judge judge(map, s.encoding.scale, s.margin);
+    std::vector<float> found(map.texels());
+    const auto look = [&](const shader::bumpshadow_eight& factors) {
+        for (std::size_t i = 0; i < found.size(); ++i)
+            found[i] = shader::bumpshadow_sine_layers_factors(layer0[i], layer1[i], factors);
+        return found.data();
     };
     if (!s.cube) {
-        look([](glm::dvec2 d) {
-            return shader::bumpshadow_factors_of_bearing(shader_bearing(bs::bearing_function::exact, d));
-        });
-        return mismatch(map, found, s.margin);
+        for (int b = 0; b < light_bearings; ++b)
+            judge.look(b, look(shader::bumpshadow_factors_of_bearing(
+                              shader_bearing(bs::bearing_function::exact, map.directions[std::size_t(b)]))));
+        return judge.result();
     }
     // The factors of a cube depend on the elevation, too.
     stored cube(bs::layout_of(*s.cube));
     expect(bs::write_factor_cube(*s.cube, cube.view()));
-    double sum = 0.0;
     for (std::size_t e = 0; e < light_elevations.size(); ++e) {
         const double angle = light_elevations[e] * std::numbers::pi / 180.0;
-        look([&](glm::dvec2 d) {
+        for (int b = 0; b < light_bearings; ++b) {
+            const glm::dvec2 d = map.directions[std::size_t(b)];
             const glm::vec3 light(d.x * std::cos(angle), d.y * std::cos(angle), std::sin(angle));
             const glm::vec4 texel = bs::sample_cube(cube.view(), {}, light);
-            return s.cube->form == bs::factor_form::published ? shader::bumpshadow_factors_published_cube(texel)
-                                                              : shader::bumpshadow_factors_biased_cube(texel);
-        });
-        sum += mismatch(map, found, s.margin, int(e));
+            judge.look(
+                b,
+                look(s.cube->form == bs::factor_form::published ? shader::bumpshadow_factors_published_cube(texel)
+                                                                : shader::bumpshadow_factors_biased_cube(texel)),
+                e);
+        }
     }
-    return sum / double(light_elevations.size());
+    return judge.result();
 }
 
 }  // namespace
@@ -65,7 +67,8 @@ setup eight(const eight_setup& s) {
         format("8 slices in 2 layers, %s%s, %s", name_of(s.encoding.scale.stored),
                name_of_limit(s.encoding.scale).c_str(), s.averaged ? "five of 32 averaged (Lengyel)" : "fitted to 32");
     if (s.cube) result.name += s.cube->form == bs::factor_form::published ? ", published cube" : ", biased cube";
-    result.bytes = 8.0;
+    if (s.reduced > 1) result.name += format(", extent / %d", s.reduced);
+    result.bytes = 8.0 / (s.reduced * s.reduced);
     result.fetches = bs::fetches(s.encoding) + (s.cube ? 1 : 0);
     result.side = s.side;
     result.margin = s.margin;

@@ -16,6 +16,7 @@ struct eight_setup {
     std::optional<bumpshadow::factor_cube> cube = {};  // none: computed factors
     int side = patch_side;
     int margin = 0;
+    int reduced = 1;  // extent over this; `side` has to be a multiple of it
 };
 [[nodiscard]] setup eight(const eight_setup& s);
 

@@ -90,19 +90,23 @@ double mean(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
+std::vector<double> percent(const std::vector<score>& scores) {
+    std::vector<double> shares;
+    for (const score& s : scores) shares.push_back(s.percent());
+    return shares;
+}
+
 // The samples, cut to what a setup needs, with the mean mismatch of Lengyel's layout on the same texels.
-class judge {
+class comparison {
 public:
-    explicit judge(std::vector<sample_map> samples) : programs_{find_codec(codec::astc), find_codec(codec::bc7)} {
-        samples_[patch_side] = std::move(samples);
-    }
+    explicit comparison(std::vector<sample_map> samples) { samples_[patch_side] = std::move(samples); }
 
     row look(const setup& s) {
         row line{.name = s.name, .bytes = s.bytes, .fetches = s.fetches, .mismatch = {}, .skipped = {}};
         if (s.needs == codec::astc && !programs_.astc) line.skipped = "astcenc is not in PATH";
         if (s.needs == codec::bc7 && !programs_.bc7) line.skipped = "bc7enc is not in PATH";
         if (!line.skipped.empty()) return line;
-        line.mismatch = s.measure(programs_, samples(s.side));
+        line.mismatch = percent(s.measure(programs_, samples(s.side)));
         line.mean = mean(line.mismatch);
         line.ratio = line.mean / yardstick(s.side, s.margin);
         return line;
@@ -117,7 +121,7 @@ private:
     }
     double yardstick(int side, int margin) {
         const auto [at, is_new] = yardsticks_.try_emplace({side, margin}, 0.0);
-        if (is_new) at->second = mean(published_sine_layers(side, margin).measure(programs_, samples(side)));
+        if (is_new) at->second = mean(percent(published_sine_layers(side, margin).measure(programs_, samples(side))));
         return at->second;
     }
 
@@ -144,7 +148,7 @@ void work(const arguments& arguments) {
         "elevations (5 to 60 degrees), exact horizons\n",
         texels, patch_side, patch_side, arguments.seed, light_bearings, light_elevations.size());
 
-    judge judge(samples);
+    comparison comparison(samples);
     std::vector<table> tables;
     std::vector<check> checks;
     int skipped = 0;
@@ -152,7 +156,7 @@ void work(const arguments& arguments) {
         tables.push_back({section.title, {}});
         for (const setup& s : section.setups) {
             if (stderr_is_terminal()) std::fprintf(stderr, "\r%s\033[K", s.name.c_str());
-            const row& line = tables.back().rows.emplace_back(judge.look(s));
+            const row& line = tables.back().rows.emplace_back(comparison.look(s));
             skipped += line.skipped.empty() ? 0 : 1;
             if (usual && s.most && line.skipped.empty())
                 checks.push_back({s.name + format(": ratio <= %g", *s.most), line.ratio, line.ratio <= *s.most});
@@ -170,7 +174,8 @@ void work(const arguments& arguments) {
     checks.insert(checks.end(), ssbump.checks.begin(), ssbump.checks.end());
     std::vector<grid> grids = ssbump.grids;
     const auto stones = std::find(names.begin(), names.end(), "dx_stones");
-    grids.push_back(measure_triangles(samples[stones == names.end() ? 0 : std::size_t(stones - names.begin())]));
+    grids.push_back(
+        grid_of(measure_triangles(samples[stones == names.end() ? 0 : std::size_t(stones - names.begin())])));
     for (const grid& g : grids) std::printf("\n%s", text_of(g).c_str());
     const named_map& timed = maps.front();
     const speeds speed = measure_speed(timed.heights, timed.source, timed.scale, arguments.repeats);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "encodings/figures.hpp"
 #include "encodings/speed.hpp"
 
 namespace examples {
@@ -22,24 +23,6 @@ struct row {
 struct table {
     std::string title;
     std::vector<row> rows;
-};
-
-// Numbers under headings; not-a-number where a line has none.
-struct grid {
-    struct line {
-        std::string name;
-        std::vector<double> values;
-    };
-    std::string title;
-    std::vector<std::string> columns;
-    std::vector<line> lines;
-};
-
-// A claim, and whether it held.
-struct check {
-    std::string what;
-    double value = 0.0;
-    bool held = false;
 };
 
 [[nodiscard]] std::string text_of(const table& t, std::span<const std::string> maps);

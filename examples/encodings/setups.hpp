@@ -8,12 +8,13 @@
 
 #include "encodings/compress.hpp"
 #include "encodings/sample.hpp"
+#include "encodings/score.hpp"
 
 namespace examples {
 
 // Programs that compress blocks, where they were found.
 struct codecs {
-    std::optional<std::string> astc, bc7;
+    std::optional<std::string> astc = find_codec(codec::astc), bc7 = find_codec(codec::bc7);
 };
 
 // A way to store horizons and to read them again.
@@ -26,8 +27,8 @@ struct setup {
     std::optional<codec> needs = {};
     int side = patch_side;  // texels of a patch that are used
     int margin = 0;         // texels at the border of a patch that are not judged
-    // Mismatch of each map, in percent.
-    std::function<std::vector<double>(const codecs&, std::span<const sample_map>)> measure;
+    // Of each map.
+    std::function<std::vector<score>(const codecs&, std::span<const sample_map>)> measure;
 };
 
 struct section {

@@ -319,20 +319,14 @@ std::vector<double> measure_formats(const sample_map& sample, const normals& sur
 
 // ---- All of it ----
 
-struct measured {
-    std::vector<double> normals, light, formats;
-    double worst_light = 0.0;
-};
-
-template <std::size_t N>
-grid lined(const std::string& title, const std::array<const char*, N>& names, std::span<const measured> maps,
-           std::span<const sample_map> samples, std::vector<double> measured::*part) {
+grid lined(const std::string& title, std::span<const char* const> names, std::span<const ssbump_measured> maps,
+           std::span<const sample_map> samples, std::vector<double> ssbump_measured::*part) {
     grid g{title, {"mean"}, {}};
     for (const sample_map& sample : samples) g.columns.push_back(sample.name);
-    for (std::size_t i = 0; i < N; ++i) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
         average mean;
         std::vector<double> values;
-        for (const measured& m : maps) {
+        for (const ssbump_measured& m : maps) {
             values.push_back((m.*part)[i]);
             if (!std::isnan(values.back())) mean.add(values.back());
         }
@@ -344,24 +338,33 @@ grid lined(const std::string& title, const std::array<const char*, N>& names, st
 
 }  // namespace
 
+std::span<const char* const> ssbump_normal_names() { return normal_names; }
+std::span<const char* const> ssbump_light_names() { return light_names; }
+std::span<const char* const> ssbump_format_names() { return format_names; }
+
+ssbump_measured measure_ssbump(const named_map& map, const sample_map& sample, const std::function<void()>& between) {
+    normals patches(sample.extent);
+    bake_patches(map, sample, patches);
+    ssbump_measured m;
+    m.normals = measure_normals(map, sample, patches);
+    if (between) between();
+    m.light = measure_light(sample, patches, m.worst_light);
+    if (between) between();
+    m.formats = measure_formats(sample, patches);
+    return m;
+}
+
 ssbump_figures measure_ssbump(std::span<const named_map> maps, std::span<const sample_map> samples) {
-    const std::vector<measured> all = each_map(samples, [&](const sample_map& sample) {
-        const named_map& map = maps[std::size_t(&sample - samples.data())];
-        normals patches(sample.extent);
-        bake_patches(map, sample, patches);
-        measured m;
-        m.normals = measure_normals(map, sample, patches);
-        m.light = measure_light(sample, patches, m.worst_light);
-        m.formats = measure_formats(sample, patches);
-        return m;
+    const std::vector<ssbump_measured> all = each_map(samples, [&](const sample_map& sample) {
+        return measure_ssbump(maps[std::size_t(&sample - samples.data())], sample);
     });
     ssbump_figures figures;
     figures.grids = {
-        lined("SSBump: recovered normals, degrees", normal_names, all, samples, &measured::normals),
-        lined("SSBump: error of light from three lightmaps, %", light_names, all, samples, &measured::light),
-        lined("SSBump: what small formats add", format_names, all, samples, &measured::formats)};
+        lined("SSBump: recovered normals, degrees", normal_names, all, samples, &ssbump_measured::normals),
+        lined("SSBump: error of light from three lightmaps, %", light_names, all, samples, &ssbump_measured::light),
+        lined("SSBump: what small formats add", format_names, all, samples, &ssbump_measured::formats)};
     double off = 0.0, precision = 0.0, light = 0.0;
-    for (const measured& m : all) {
+    for (const ssbump_measured& m : all) {
         if (!std::isnan(m.normals[0])) off = std::max(off, m.normals[0]);
         if (m.normals[1] > 0.0) precision = std::max(precision, m.normals[0] / m.normals[1]);
         light = std::max(light, m.worst_light);

@@ -24,6 +24,21 @@ namespace examples {
 // Throws failure where a call of the library failed.
 void expect(const bumpshadow::status& s);
 
+// work(i) for i from 0 to count - 1 on all cores; what is thrown there is thrown here.
+template <class Work>
+void on_all_cores(std::size_t count, const Work& work) {
+    std::vector<std::exception_ptr> errors(count);
+    bumpshadow::threads()(count, [&](std::size_t i) {
+        try {
+            work(i);
+        } catch (...) {
+            errors[i] = std::current_exception();
+        }
+    });
+    for (const std::exception_ptr& error : errors)
+        if (error) std::rethrow_exception(error);
+}
+
 // One map an item on all cores, work(map); what is thrown there is thrown here.
 template <class Work>
 auto each_map(std::span<const sample_map> maps, const Work& work) {

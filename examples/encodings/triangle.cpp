@@ -1,9 +1,12 @@
 #include "encodings/triangle.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 #include <glm/ext/vector_double3.hpp>
 
@@ -11,6 +14,7 @@
 #include <bumpshadow/reference/triangle.hpp>
 
 #include "common/report_text.hpp"
+#include "encodings/score.hpp"
 #include "encodings/stored.hpp"
 
 namespace examples {
@@ -41,9 +45,8 @@ constexpr std::array forms{form{"bearing and slope, the seam left as it is", bs:
                            form{"direction and slope", bs::interpolant::direction},
                            form{"the light itself", bs::interpolant::light}};
 
-constexpr int triangles = 480;  // around the light, each turned by another angle
-constexpr int division = 8;     // of an edge: points are the middles of the small triangles that stand upright
-constexpr int texels = 8;       // a point, anywhere on the map
+constexpr int division = 8;  // of an edge: points are the middles of the small triangles that stand upright
+constexpr int texels = 8;    // a point, anywhere on the map
 
 glm::dvec3 level(double angle, double length) { return {length * std::cos(angle), length * std::sin(angle), 0.0}; }
 
@@ -60,20 +63,22 @@ std::array<glm::dvec3, 3> vectors_to_light(const column& c, double bearing, doub
     return vectors;
 }
 
-std::string title_of(const column& c) {
-    return (c.where == place::aside          ? "45 degrees, "
-            : c.where == place::above_vertex ? "vertex, "
-                                             : "middle, ") +
-           format("%g", c.edge);
+const char* name_of(place where) {
+    switch (where) {
+        case place::aside: return "45 degrees";
+        case place::above_vertex: return "vertex";
+        case place::above_middle: break;
+    }
+    return "middle";
 }
 
-class judge {
+class triangle_judge {
 public:
-    explicit judge(const sample_map& map) : map_(map), volume_(pack(map)) {}
+    explicit triangle_judge(const sample_map& map) : map_(map), volume_(pack(map)) {}
 
-    // Wrong answers of each form, in percent.
-    [[nodiscard]] std::array<double, forms.size()> look(const column& c) const {
-        std::array<double, forms.size()> wrong{};
+    // Triangles stand around the light, each turned by another angle.
+    [[nodiscard]] std::array<triangle_figure, forms.size()> look(const column& c, int triangles) const {
+        std::array<std::vector<double>, forms.size()> shares;  // of each triangle, in percent
         double all = 0.0;
         std::uint32_t random = 1;
         for (int n = 0; n < triangles; ++n) {
@@ -82,6 +87,8 @@ public:
             const auto exact = vectors_to_light(c, (n + 0.5) / triangles * whole, (turn - std::floor(turn)) * whole);
             std::array<glm::vec3, 3> lights;
             for (std::size_t i = 0; i < 3; ++i) lights[i] = glm::vec3(exact[i]);
+            std::array<double, forms.size()> wrong{};
+            double points = 0.0;
             for (int i = 0; i < division; ++i)
                 for (int j = 0; i + j < division; ++j) {
                     const double u = (i + 1.0 / 3.0) / division, v = (j + 1.0 / 3.0) / division;
@@ -98,11 +105,17 @@ public:
                         for (std::size_t f = 0; f < forms.size(); ++f)
                             wrong[f] += bs::shadow_factor(encoding_, volume_.view(), {}, uv, found[f]) != truth;
                     }
-                    all += texels;
+                    points += texels;
                 }
+            all += points;
+            for (std::size_t f = 0; f < forms.size(); ++f) shares[f].push_back(100.0 * wrong[f] / points);
         }
-        for (double& w : wrong) w *= 100.0 / all;
-        return wrong;
+        std::array<triangle_figure, forms.size()> figures;
+        for (std::size_t f = 0; f < forms.size(); ++f) {
+            const double sum = std::accumulate(shares[f].begin(), shares[f].end(), 0.0);
+            figures[f] = {forms[f].name, name_of(c.where), c.edge, sum / triangles, confidence(shares[f]), all};
+        }
+        return figures;
     }
 
 private:
@@ -126,14 +139,27 @@ private:
 
 }  // namespace
 
-grid measure_triangles(const sample_map& map) {
+std::vector<triangle_figure> measure_triangles(const sample_map& map, int triangles,
+                                               const std::function<void()>& between) {
+    const triangle_judge judge(map);
+    std::array<std::array<triangle_figure, forms.size()>, columns.size()> found;
+    constexpr std::size_t part = (columns.size() + triangle_pauses - 1) / triangle_pauses;
+    for (std::size_t first = 0; first < columns.size(); first += part) {
+        on_all_cores(std::min(part, columns.size() - first),
+                     [&](std::size_t i) { found[first + i] = judge.look(columns[first + i], triangles); });
+        if (between) between();
+    }
+    std::vector<triangle_figure> all;
+    for (const auto& figures : found) all.insert(all.end(), figures.begin(), figures.end());
+    return all;
+}
+
+grid grid_of(const std::vector<triangle_figure>& figures) {
     grid g{"Interpolated over a triangle, wrong %: middle at 45 degrees, or light above; edge over height", {}, {}};
     for (const form& f : forms) g.lines.push_back({f.name, {}});
-    const judge judge(map);
-    for (const column& c : columns) {
-        g.columns.push_back(title_of(c));
-        const auto wrong = judge.look(c);
-        for (std::size_t f = 0; f < forms.size(); ++f) g.lines[f].values.push_back(wrong[f]);
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+        if (i % forms.size() == 0) g.columns.push_back(figures[i].place + format(", %g", figures[i].edge));
+        g.lines[i % forms.size()].values.push_back(figures[i].percent);
     }
     return g;
 }
