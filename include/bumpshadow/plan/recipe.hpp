@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <span>
+
+#include <glm/ext/vector_double2.hpp>
+#include <glm/ext/vector_int2.hpp>
+
+#include <bumpshadow/bearing.hpp>
+#include <bumpshadow/encode/reduce.hpp>
+#include <bumpshadow/encode/slices.hpp>
+#include <bumpshadow/encode/tangent_volume.hpp>
+#include <bumpshadow/horizon_map.hpp>
+#include <bumpshadow/reference/shadow_edge.hpp>
+#include <bumpshadow/status.hpp>
+#include <bumpshadow/texture.hpp>
+
+// The cheapest set-up that is good enough for a scene: what plan() returns.
+
+namespace bumpshadow {
+
+struct plan_figures {
+    double mismatch = 0.0;  // share of wrong answers; of pixels of many texels, mean difference of the shadow factor
+    double interval = 0.0;  // half width of the 95 % confidence interval of mismatch
+    double degrees = 0.0;   // mean error of the horizon's elevation in the lights' bearings
+    double bytes = 0.0;     // a texel of the height map
+    double bake_seconds = 0.0;  // of the whole map on one thread
+    double gpu_cost = 0.0;      // cycles a wave, as shader_cost prints them for RDNA2
+    int fetches = 0;
+};
+
+// What stands between a scene and its error where no recipe meets it.
+// textures: light comes from many bearings, but the platform has neither volumes nor arrays to hold slices.
+enum class plan_obstacle : unsigned char { none, mismatch, degrees, bytes, bake_seconds, gpu_cost, textures };
+
+[[nodiscard]] constexpr const char* name_of(plan_obstacle o) {
+    constexpr const char* names[] = {"none", "mismatch", "degrees", "bytes", "bake_seconds", "gpu_cost", "textures"};
+    return names[std::size_t(o)];
+}
+
+// One choice and why, with the number that decided.
+struct plan_line {
+    char text[160] = "";
+};
+
+struct recipe {
+    // False where no light of the scene is ever blocked: no bake, no texture, no code. Nothing else counts then.
+    bool shadows = true;
+    // The error that was asked for is met; else `obstacle` says what stands in the way, and this is the best there is.
+    plan_obstacle obstacle = plan_obstacle::none;
+
+    // The bake, by the cascade.
+    int steps = bake_options{}.steps;
+    double radius = bake_options{}.radius;  // in the unit of texel_size
+    int reduced_heights = 1;                // heights are averaged over squares of this side before the bake
+    int directions = 32;                    // see fill_directions()
+
+    // The texture.
+    int reduction = 1;  // horizons are averaged over squares of this side, of the baked extent
+    tangent_volume encoding = {};
+    slice_fit fit = slice_fit::least_squares;
+    // plan() leaves it false: a scene says how near its views come, not how far they go, and a texture that is reduced
+    // to its nearest view has done the mips' first work. To be set where views from farther away shimmer; not for the
+    // volume of an arc, and of a volume of all bearings not with slice_fit::point.
+    bool mips = false;
+
+    // The shader.
+    shadow_edge edge = {};
+    bool above = true;  // lights never shine from below the surface
+
+    bool wants_normals = false;  // a normal map is missing
+    bool wants_masks = false;    // lightmaps are there: masks (encode/ssbump.hpp) shadow them
+
+    // Share of the map's tiles of 32 x 32 texels that no light of the scene shadows: tile_horizons() finds them.
+    double free_tiles = 0.0;
+
+    plan_figures predicted = {};
+    std::array<plan_line, 20> why = {};
+    int lines = 0;
+
+    // Adds a line, as printf does.
+    template <class... Values>
+    void say(const char* format, Values... values) {
+        if (std::size_t(lines) < why.size())
+            std::snprintf(why[std::size_t(lines++)].text, sizeof plan_line::text, format, values...);
+    }
+};
+
+// Extent that horizons are baked at.
+[[nodiscard]] constexpr glm::ivec2 baked_extent(const recipe& r, glm::ivec2 extent) {
+    return reduced_extent(extent, r.reduced_heights);
+}
+// Layout of the texture.
+[[nodiscard]] inline texture_layout layout_of(const recipe& r, glm::ivec2 extent) {
+    const glm::ivec2 stored = reduced_extent(baked_extent(r, extent), r.reduction);
+    return layout_of(r.encoding, stored, r.mips ? default_mips(stored) : 1);
+}
+
+// Directions to bake: those of `directions` slices of the encoding's arc and bearing function, as many as out has.
+inline void fill_directions(const recipe& r, std::span<glm::dvec2> out) {
+    slice_set all = r.encoding.slices;
+    all.count = int(out.size());
+    fill_directions(out, all);
+}
+
+}  // namespace bumpshadow
