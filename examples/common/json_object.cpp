@@ -7,7 +7,7 @@ namespace examples::json_file {
 // A value as a message shows it: on one line, and not the whole file.
 std::string shown(const json& value) {
     std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-    if (text.size() > 40) text = text.substr(0, 37) + "...";
+    if (text.size() > 40) text.replace(37, std::string::npos, "...");
     return text;
 }
 
@@ -25,7 +25,7 @@ json parse(const std::string& text, const std::string& name) {
     json all;
     try {
         all = json::parse(text, look);
-    } catch (const json::parse_error& error) {
+    } catch (const json::exception& error) {
         std::string why = error.what();
         // What comes before says where the library found it, in its own words.
         if (const std::size_t at = why.find("] "); at != std::string::npos) why.erase(0, at + 2);

@@ -3,6 +3,7 @@
 
 #include "common/report_text.hpp"
 #include "report/columns.hpp"
+#include "report/growth.hpp"
 #include "report/writers.hpp"
 
 namespace examples {
@@ -125,6 +126,11 @@ std::string json_of(const findings& all, const plot_outcome& outcome) {
     json.add("\"columns\":" + columns_json());
     json.add("\"records\":" + records.text());
     json.add("\"fronts\":" + fronts.text());
+    list checks('[');
+    for (const growth_check& c : checks_of_growth(all.records))
+        checks.add('{' + pair("check", c.what) +
+                   format(",\"value\":%.6g,\"held\":%s}", c.value, c.held() ? "true" : "false"));
+    json.add("\"checks\":" + checks.text());
     return json.text() + '\n';
 }
 

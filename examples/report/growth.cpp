@@ -225,6 +225,10 @@ double fitted_exponent(std::span<const double> x, std::span<const double> y) {
     return (count * product - sum_x * sum_y) / (count * square - sum_x * sum_x);
 }
 
+std::string text_of(const growth_check& check) {
+    return (check.held() ? "held: " : "NOT held: ") + check.what + format(": %.4g", check.value);
+}
+
 std::vector<growth_check> checks_of_growth(std::span<const record> records) {
     std::vector<growth_check> checks;
     double unlimited = std::numeric_limits<double>::quiet_NaN(), limited = unlimited;

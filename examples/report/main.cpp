@@ -23,6 +23,7 @@
 #include "report/findings.hpp"
 #include "report/gnuplot.hpp"
 #include "report/gpu.hpp"
+#include "report/growth.hpp"
 #include "report/machine.hpp"
 #include "report/maps.hpp"
 #include "report/plots.hpp"
@@ -151,6 +152,7 @@ int work(const arguments& arguments, const char* program) {
 
     std::error_code ignored;
     const std::string address = std::filesystem::absolute(folder / "index.html", ignored).lexically_normal().string();
+    for (const growth_check& c : checks_of_growth(all.records)) std::printf("%s\n", text_of(c).c_str());
     std::printf("%zu records. %s\n%s%s\n", all.records.size(), outcome.about.c_str(),
                 all.run.partial.empty() ? "Open " : ("PARTIAL, " + all.run.partial + ". Open ").c_str(),
                 address.c_str());

@@ -2,6 +2,7 @@
 
 #include "common/report_text.hpp"
 #include "report/columns.hpp"
+#include "report/growth.hpp"
 #include "report/tables.hpp"
 #include "report/writers.hpp"
 
@@ -49,6 +50,7 @@ std::vector<std::string> conditions_of(const findings& all, const plot_outcome& 
     for (const skipped_map& m : all.skipped) lines.push_back("Skipped: " + m.reason + '.');
     for (const section_facts& s : all.sections)
         if (s.state != "complete") lines.push_back("Section " + s.name + ": " + s.state + '.');
+    for (const growth_check& c : checks_of_growth(all.records)) lines.push_back(text_of(c) + '.');
     lines.push_back(outcome.about);
     return lines;
 }

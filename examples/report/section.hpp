@@ -40,9 +40,9 @@ struct report_context {
 
 // Part of a report. `steps` of all sections together are the progress bar's whole.
 struct report_section {
-    std::string name;   // as in record::section
-    std::string title;  // for a reader
-    std::function<int(const report_context&)> steps;  // how often run will call step()
+    std::string name;                                      // as in record::section
+    std::string title;                                     // for a reader
+    std::function<int(const report_context&)> steps;       // how often run will call step()
     std::function<double(const report_context&)> seconds;  // a rough estimate of its share of the time
     std::function<void(const report_context&)> run;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "common/report_text.hpp"
 #include "report/columns.hpp"
 
 namespace examples {
@@ -45,6 +46,14 @@ table table_of(const std::vector<const record*>& records, const std::string& map
     return result;
 }
 
+// A page is for a person: of a long product of choices it shows the usual ones.
+constexpr std::size_t most_rows = 200;
+
+bool is_usual(const record& r) {
+    return (r.fit.empty() || r.fit == "least squares") && (r.function.empty() || r.function == "cubic") &&
+           (r.quantity.empty() || r.quantity == "slope" || r.format == "RGBA8");
+}
+
 }  // namespace
 
 std::vector<table> tables_of(const findings& all, const std::string& section) {
@@ -57,7 +66,13 @@ std::vector<table> tables_of(const findings& all, const std::string& section) {
         std::vector<const record*> records;
         for (const record& r : all.records)
             if (r.section == section && r.map == map) records.push_back(&r);
+        const std::size_t count = records.size();
+        if (count > most_rows) std::erase_if(records, [](const record* r) { return !is_usual(*r); });
         tables.push_back(table_of(records, map));
+        if (records.size() < count)
+            tables.back().throughout += format(
+                " Of %zu set-ups those fitted by least squares, of cubic bearings and slopes; report.csv has all.",
+                count);
     }
     return tables;
 }

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <concepts>
 #include <cstddef>
+#include <exception>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -13,6 +14,15 @@ namespace bumpshadow {
 //   execute(count, body)    runs body(0) ... body(count - 1) in any order, each once, at most concurrency() at a time,
 //                           and returns when all have ended
 // The result of a bake does not depend on the executor, bit for bit. Wrap an engine's job system in these two members.
+//
+// What comes of an executor that does otherwise:
+//   an exception    passes through the producer; scratch goes back where it came from, outputs are written in part.
+//                   Items that are running have to end before, as they use the scratch
+//   an item twice   the same result if one run ends before the other begins, but for make_mips, make_fourier_mips and
+//                   draw_emboss onto its own base, which change values in place, and counts in reports. At the same
+//                   time both write to the same memory
+//   an item never   what it would have written stays as it was, and the status says nothing of it
+//   more at a time  than concurrency(): the surplus waits
 template <class T>
 concept executor = requires(const T& execute, void (*body)(std::size_t)) {
     { execute.concurrency() } -> std::convertible_to<int>;
@@ -29,7 +39,8 @@ struct serial {
     }
 };
 
-// Runs items on `count` threads, the calling one among them; the others live as long as one call.
+// Runs items on `count` threads, the calling one among them; the others live as long as one call. Where no more threads
+// can be had those that could be do the work. A body that throws on one of the others ends the program.
 class threads {
 public:
     // 0: one for each core the machine reports.
@@ -48,8 +59,18 @@ public:
         };
         std::vector<std::jthread> helpers;
         const std::size_t wanted = count < std::size_t(count_) ? count : std::size_t(count_);
-        helpers.reserve(wanted);
-        for (std::size_t i = 1; i < wanted; ++i) helpers.emplace_back(work);
+        const auto hire = [&] {
+            helpers.reserve(wanted);
+            for (std::size_t i = 1; i < wanted; ++i) helpers.emplace_back(work);
+        };
+#if defined(__cpp_exceptions)
+        try {
+            hire();
+        } catch (const std::exception&) {  // std::system_error, or std::bad_alloc
+        }
+#else
+        hire();
+#endif
         work();
     }
 

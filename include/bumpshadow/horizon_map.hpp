@@ -61,7 +61,8 @@ struct bake_options {
     // Occluders farther than this are left out, in the unit of texel_size.
     double radius = std::numeric_limits<double>::infinity();
     // Principal curvatures of the base surface along x and y, in 1/unit. Along a bearing the base falls away by
-    // (x cos^2 + y sin^2) t^2 / 2. Negative ones (a hollow base, which rises for ever) need a finite radius.
+    // (x cos^2 + y sin^2) t^2 / 2. Negative ones (a hollow base, which rises for ever) need a finite radius, at which
+    // the base's slope has to be one that a float can hold.
     glm::dvec2 curvature{0.0, 0.0};
     // Texels to bake; the output has this extent. Empty: the whole map.
     rectangle region = {};
@@ -115,6 +116,11 @@ template <height_sample Sample>
     if (!(options.radius > 0.0)) return {error::not_positive, "radius", options.radius};
     if (!is_finite(options.curvature.x)) return {error::not_finite, "curvature.x", options.curvature.x};
     if (!is_finite(options.curvature.y)) return {error::not_finite, "curvature.y", options.curvature.y};
+    if (is_finite(options.radius)) {
+        const double least = -double((std::numeric_limits<float>::max)()) / options.radius;
+        if (options.curvature.x < least) return {error::out_of_range, "curvature.x", options.curvature.x, least};
+        if (options.curvature.y < least) return {error::out_of_range, "curvature.y", options.curvature.y, least};
+    }
     for (const glm::dvec2 d : directions) {
         if (!is_finite(d.x) || !is_finite(d.y)) return {error::not_finite, "direction", is_finite(d.x) ? d.y : d.x};
         if (d.x == 0.0 && d.y == 0.0) return {error::not_positive, "length of a direction", 0.0};

@@ -89,13 +89,21 @@ void for_rows(int rows, Executor&& execute, const Body& body) {
     });
 }
 
-// Exact for 8 and 16 bits.
+// The steepest slope, so that squares stay finite.
+inline constexpr float steepest = 1e18f;
+
+// Slope between two samples. Differences of 8 and 16 bits are exact; doubles may be beyond float until they are scaled.
 template <height_sample Sample>
-[[nodiscard]] inline float difference(Sample a, Sample b) {
+[[nodiscard]] inline float slope(Sample a, Sample b, double factor) {
+    float slope;
     if constexpr (std::is_integral_v<Sample>)
-        return float(int(a) - int(b));
+        slope = float(int(a) - int(b)) * float(factor);
+    else if constexpr (std::is_same_v<Sample, float>)
+        slope = (a - b) * float(factor);
     else
-        return float(a - b);
+        slope = float((a - b) * factor);
+    slope = slope < steepest ? slope : steepest;
+    return slope > -steepest ? slope : -steepest;
 }
 
 // Slope at texel (x, y) along the axis (dx, dy): from one neighbor to the other; one that is missing or a hole is
@@ -114,7 +122,7 @@ template <height_sample Sample>
     }
     if (span == 0) return 0.0f;
     const double unit = unit_height(heights) / (dx != 0 ? heights.texel_size.x : heights.texel_size.y);
-    return difference(ends[1], ends[0]) * float(unit / double(span));
+    return slope(ends[1], ends[0], unit / double(span));
 }
 
 [[nodiscard]] inline glm::vec3 normal(float slope_x, float slope_y) {
@@ -139,8 +147,8 @@ template <height_sample Sample, executor Executor = serial>
     if (status s = check(out, extent); !s) return s;
     if (status s = check_samples(heights); !s) return s;
 
-    const float half_x = float(0.5 * unit_height(heights) / heights.texel_size.x);
-    const float half_y = float(0.5 * unit_height(heights) / heights.texel_size.y);
+    const double half_x = 0.5 * unit_height(heights) / heights.texel_size.x;
+    const double half_y = 0.5 * unit_height(heights) / heights.texel_size.y;
     const glm::ivec2 first = origin, size = extent;
     normal_detail::for_rows(size.y, execute, [&, first, size](int row) {
         const int y = first.y + row;
@@ -164,8 +172,8 @@ template <height_sample Sample, executor Executor = serial>
             const Sample* down = heights.samples + below * heights.row_stride + first.x;
             float *nx = out.row(0, row), *ny = out.row(1, row), *nz = out.row(2, row);
             for (int x = left - first.x; x < right - first.x; ++x) {
-                const float sx = half_x * normal_detail::difference(here[x + 1], here[x - 1]);
-                const float sy = half_y * normal_detail::difference(down[x], up[x]);
+                const float sx = normal_detail::slope(here[x + 1], here[x - 1], half_x);
+                const float sy = normal_detail::slope(down[x], up[x], half_y);
                 const float inverse = 1.0f / std::sqrt(1.0f + sx * sx + sy * sy);
                 nx[x] = -sx * inverse;
                 ny[x] = -sy * inverse;

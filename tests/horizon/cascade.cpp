@@ -467,6 +467,32 @@ TEST_CASE("cascade: occluders beyond the radius do not count") {
         }
 }
 
+TEST_CASE("cascade: relief beyond what floats can hold is refused") {
+    auto map = hard<double>({40, 30}, 12);
+    slopes values(40 * 30, 7.0f);
+    const horizon_map out{.values = values, .extent = map.extent, .bearings = 1};
+    const glm::dvec2 direction(1.0, 0.3);
+    const auto bake = [&](double height, bool holes) {
+        map.at(20, 10) = height;
+        height_map<double> view = map.view(edge_mode::clamp);
+        if (holes) view.no_data = -12345.0;
+        return bake_cascade(view, std::span(&direction, 1), out);
+    };
+    for (const double height : {1e36, -1e36, 1e300, -1e300}) {
+        const status s = bake(height, false);
+        CHECK(s.code() == error::out_of_range);
+        CHECK(s.value() / height > 0.0);
+    }
+    CHECK(bake(-1e20, true).code() == error::out_of_range);
+    CHECK(std::all_of(values.begin(), values.end(), [](float v) { return v == 7.0f; }));
+    for (const double height : {1e34, -1e34}) {
+        CHECK(bool(bake(height, false)));
+        CHECK(std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }));
+    }
+    CHECK(bool(bake(-1e19, true)));
+    CHECK(std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }));
+}
+
 TEST_CASE("cascade: a radius inside the texel's own cell") {
     // There the slope is linear, so that nothing but rounding is left.
     auto map = hard({150, 120}, 17);

@@ -618,6 +618,23 @@ TEST_CASE("rays that never meet anything higher come to an end") {
     }
 }
 
+TEST_CASE("rays over a hollow base come to an end at any radius") {
+    // h(t) / t + k t / 2 with 0 <= h <= 1: the spike 5 texels away, or the radius, up to 1 / radius.
+    const auto map = sampled({17, 17}, shapes::spike({8, 8}, 1.0));
+    for (const edge_mode edge : {edge_mode::repeat, edge_mode::mirror, edge_mode::clamp})
+        for (const double radius : {1e3, 1e9, 1e15, 1e300})
+            for (const double k : {1e-300, 1e-17, 1e-9, 0.1, 1e6}) {
+                CAPTURE(int(edge));
+                CAPTURE(radius);
+                CAPTURE(k);
+                const double end = std::min(radius, 1e15);  // no texels beyond count
+                const double slope = exact_horizon(map.view(edge), {3, 8}, {1, 0}, radius, {-k, 0.0}).slope;
+                const double least = std::max(0.2 + 0.5 * k * 5.0, 0.5 * k * end);
+                CHECK(slope >= least - 1e-9 * least);
+                CHECK(slope <= least + 1e-9 * least + 1.0 / end + 1e-7);
+            }
+}
+
 TEST_CASE("symmetries of the map are symmetries of its horizons") {
     shapes::noise source(6);
     const glm::ivec2 extent(12, 7);

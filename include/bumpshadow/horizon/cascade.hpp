@@ -74,9 +74,12 @@ template <height_sample Sample>
 // 1.9 and 0.026 / 0.43, roof tiles 0.13 / 1.9 and 0.027 / 0.38, rock 0.09 / 1.0 and 0.020 / 0.25. Differences of
 // heights are kept as floats: the slope at distance t is off by up to |h| / t * 2^-22 besides, where h is the height
 // above reference_texel().
+// On maps that repeat, occluders are looked for as far as they can make slopes of 1/1024 (0.06 degrees), but not
+// farther than four times the map, or 4096 texels if that is more.
 // Any extent, edge mode, texel size, radius, curvature. The result is the same for any executor, for any region that a
 // texel is baked in and for any set of directions baked together, bit for bit.
-// Errors: those of check_bake; not_finite with the place of the first such height; scratch too small or out of memory.
+// Errors: those of check_bake; not_finite with the place of the first such height; out_of_range where heights differ by
+// more than 1e35 texels, or lie 5e19 below reference_texel() on a map with holes or an open edge; scratch.
 template <height_sample Sample, executor Executor = serial>
 [[nodiscard]] status bake_cascade(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
                                   const horizon_map& out, const bake_options& options = {}, Executor&& execute = {}) {
@@ -99,6 +102,14 @@ template <height_sample Sample, executor Executor = serial>
     std::array<pyramid_scratch, 2> building;
     for (std::size_t i = 0; i < 2; ++i) building[i] = carve_pyramid(both[i], block);
     const height_range range = fill_ground(heights, both[0], execute);
+    // Beyond it slopes overflow, or a height would be taken for a hole.
+    const float lowest = holes ? 0.5f * hole_limit : -most_relief;
+    if (range.lowest < lowest)
+        return {error::out_of_range, "lowest height above reference_texel(), in texels", double(range.lowest),
+                double(lowest)};
+    if (range.highest > most_relief && range.highest >= range.lowest)
+        return {error::out_of_range, "highest height above reference_texel(), in texels", double(range.highest),
+                double(most_relief)};
     execute(2, [&](std::size_t i) {
         if (!wanted[i]) return;
         if (i == 1) transpose_ground(both[0], both[1]);

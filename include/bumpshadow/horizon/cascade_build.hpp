@@ -94,7 +94,7 @@ template <height_sample Sample, class Executor>
     std::array<height_range, 16> ranges;
     const double reference = reference_sample(heights);
     const int rows = p.texels.texels.y,
-              bands = std::clamp(execute.concurrency(), 1, (std::min)(rows, int(ranges.size())));
+              bands = (std::clamp)(int(execute.concurrency()), 1, (std::min)(rows, int(ranges.size())));
     execute(std::size_t(bands), [&](std::size_t i) {
         const auto edge_of = [&](std::size_t band) { return int(std::int64_t(rows) * std::int64_t(band) / bands); };
         ranges[i] = fill_rows(heights, p, reference, edge_of(i), edge_of(i + 1));

@@ -143,7 +143,7 @@ public:
         range_ = std::abs(double(bounds.highest()) * unit_ - double(bounds.lowest()) * unit_);
         limit_ = endless ? farthest : (std::min)(radius / reach_, farthest);
         const bool recurs = heights.edge == edge_mode::repeat || heights.edge == edge_mode::mirror;
-        if (recurs && bend_ >= 0.0) {
+        if (recurs) {
             const double fold = heights.edge == edge_mode::mirror ? 2.0 : 1.0;
             again_ = recurrence(tangent_, fold * double(major_.count), fold * double(minor_.count), bounds.has_holes());
             if (bounds.has_holes()) limit_ = (std::min)(limit_, farthest_with_holes);
@@ -236,7 +236,15 @@ private:
         [[nodiscard]] bool nothing_more(double s) const {
             const double allowance = s < patience ? 0.0 : impatience * s * of.range_;
             if (below(rise(of.bounds_.highest()), s, limit, allowance)) return true;
-            return s >= of.again_ && best >= -allowance;
+            // Over a hollow base what has been met comes again with a slope that is larger by what the base rose.
+            return s >= of.again_ && best >= -allowance && -of.bend_ * limit <= allowance;
+        }
+
+        // As far as nothing beyond s can beat the best over a hollow base, on which that may be many lengths of a map.
+        [[nodiscard]] double passed(double s) const {
+            const double highest = (std::max)(rise(of.bounds_.highest()), 0.0);
+            const double way = (1.0 - 1e-12) * (highest / s - best) / of.bend_;
+            return way > s ? (std::min)(way, limit) : s;
         }
 
         void run() {
@@ -246,7 +254,7 @@ private:
             }
             // Where all is below, or the base is hollow, the farthest point is likely the best. A little less than its
             // slope lets the ray jump from the start on and still find that point, or a nearer one as high.
-            if (!of.starts_at_zero_ && limit > 1.0 && limit < farthest) {
+            if (!of.starts_at_zero_ && limit > 1.0 && (limit < farthest || of.bend_ < 0.0)) {
                 const double a = std::nextafter(limit, 0.0);
                 cell(std::int64_t(a), minor_cell(a), a, limit);
                 best -= 1e-11 * std::abs(best) + std::numeric_limits<double>::min();
@@ -267,7 +275,7 @@ private:
                     {limit, endless_u ? never : double(i_end), endless_v ? never : double(j_end) / of.tangent_});
                 const Sample top = of.swapped_ ? of.bounds_.highest(level, v, u) : of.bounds_.highest(level, u, v);
                 if (below(rise(top), s, end)) {
-                    s = end;
+                    s = of.bend_ < 0.0 ? passed(end) : end;
                     i = std::int64_t(s);
                     j = minor_cell(s);
                     level = (std::min)(level + 1, of.bounds_.levels() - 1);

@@ -1,0 +1,95 @@
+#pragma once
+
+// Everything in the library that takes memory or an executor, behind one face, for tests of what goes wrong.
+
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <memory_resource>
+#include <new>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <bumpshadow/executor.hpp>
+#include <bumpshadow/status.hpp>
+
+namespace faults {
+
+inline constexpr int usual_width = 3;
+
+// An executor that is chosen while a program runs.
+struct any_executor {
+    using item = std::function<void(std::size_t)>;
+    int width = usual_width;
+    std::function<void(std::size_t, const item&)> run = [](std::size_t count, const item& body) {
+        for (std::size_t i = 0; i < count; ++i) body(i);
+    };
+
+    [[nodiscard]] int concurrency() const { return width; }
+    template <class Body>
+    void operator()(std::size_t count, Body&& body) const {
+        run(count, [&](std::size_t i) { body(i); });
+    }
+};
+
+// Counts what is out, and has nothing left from call `fails` on.
+class counting : public std::pmr::memory_resource {
+public:
+    explicit counting(int fails = -1) : fails_(fails) {}
+    std::size_t out = 0;
+    int calls = 0;
+
+private:
+    void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+        if (calls++ == fails_) {
+#if defined(__cpp_exceptions)
+            throw std::bad_alloc();
+#else
+            return nullptr;
+#endif
+        }
+        void* const block = std::pmr::new_delete_resource()->allocate(bytes, alignment);
+        std::memset(block, 0xff, bytes);
+        out += bytes;
+        return block;
+    }
+    void do_deallocate(void* block, std::size_t bytes, std::size_t alignment) override {
+        out -= bytes;
+        std::pmr::new_delete_resource()->deallocate(block, bytes, alignment);
+    }
+    [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+    int fails_;
+};
+
+// All that a producer writes.
+struct outputs {
+    std::vector<float> numbers;
+    std::vector<std::byte> bytes;
+
+    [[nodiscard]] bool operator==(const outputs& other) const {
+        return numbers.size() == other.numbers.size() && bytes == other.bytes &&
+               (numbers.empty() ||
+                std::memcmp(numbers.data(), other.numbers.data(), numbers.size() * sizeof(float)) == 0);
+    }
+};
+
+struct from {
+    std::span<std::byte> scratch = {};
+    std::pmr::memory_resource* memory = nullptr;
+};
+
+struct producer {
+    std::string name;
+    outputs blank;        // as large as what it writes; floats of -7 and bytes of 77
+    std::size_t scratch;  // bytes that its size function states for an executor three wide; 0: takes no span
+    std::function<bumpshadow::status(outputs&, const from&, const any_executor&)> run;
+    bool memory = true;    // takes any
+    bool again = true;     // an item may be run again
+    bool by_items = true;  // nothing is written where no item runs
+};
+
+[[nodiscard]] std::vector<producer> all_producers();
+
+}  // namespace faults
