@@ -2,13 +2,17 @@
 # Sets up what is missing, then builds and runs. Works from any folder.
 #
 #   sh cmake/run.sh demo [HEIGHTS.png] [-o DIR]   the demo; writes into build/demo unless told otherwise
+#   sh cmake/run.sh report [HEIGHTS...] [-o DIR]  error against run time; writes into build/report unless told otherwise
 #   sh cmake/run.sh test                          build everything, run the tests
 #   sh cmake/run.sh clang                         the same with clang++
 #   sh cmake/run.sh sanitize                      the same with address and undefined behavior sanitizers
-#   sh cmake/run.sh full                          these, slow tests, other builds, clang-tidy, the benchmark
+#   sh cmake/run.sh full                          these, slow tests, more random maps, other builds, clang-tidy, all
+#                                                 measurements
 #
 # On Debian and Ubuntu missing packages are installed, as root or with sudo. BUMPSHADOW_HEIGHT_MAPS names a folder of
-# real height maps with a MANIFEST.tsv; tests that need it are skipped where it is not set.
+# real height maps with a MANIFEST.tsv; tests that need it are skipped where it is not set. BUMPSHADOW_HLSL_COMPILERS
+# names a folder with d3dcompiler_47.dll and dxcompiler.dll (default: that of "npm install webgpu" here,
+# node_modules/webgpu/dist/win32-x64); with them, wine64 and g++-mingw-w64-x86-64-posix FXC and DXC are tested, too.
 set -eu
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
@@ -48,20 +52,32 @@ tools='' headers='' others=''
 look_for_tool() { has_tool "$1" || tools="$tools $2"; }
 look_for_header() { has_header "$1" || headers="$headers $2"; }
 
+# The compilers that shader_cost asks, and what it is linked with.
+look_for_cost_tools() {
+    has_tool glslangValidator || others="$others glslang-tools"
+    has_vulkan || others="$others mesa-vulkan-drivers"
+    has_header vulkan/vulkan.h || others="$others libvulkan-dev"
+}
+
 # What compiles and runs the shaders. Tests that need it are skipped where it is missing.
 look_for_shader_tools() {
-    has_tool glslangValidator || others="$others glslang-tools"
     has_tool spirv-cross || others="$others spirv-cross"
     has_tool spirv-opt || others="$others spirv-tools"
     has_renderer || others="$others libgl1-mesa-dri"
-    # The compiler that shader_cost asks, and what that is linked with.
-    has_vulkan || others="$others mesa-vulkan-drivers"
-    has_header vulkan/vulkan.h || others="$others libvulkan-dev"
+    look_for_cost_tools
     has_header EGL/egl.h || others="$others libegl-dev"
     has_header GL/glcorearb.h || others="$others libgl-dev"
 }
 
-# Installs what the arguments (clang, xsimd, shaders, measure) and every build need and do not have.
+# What only looks for mistakes.
+look_for_check_tools() {
+    has_tool run-clang-tidy || others="$others clang-tidy"
+    has_tool cppcheck || others="$others cppcheck"
+    has_tool valgrind || others="$others valgrind"
+}
+
+# Installs what the arguments (clang, xsimd, shaders, properties, measure, plots, costs) and every build need and do
+# not have.
 set_up() {
     tools='' headers='' others=''
     has_tool "${CXX:-c++}" || look_for_tool g++ g++
@@ -70,13 +86,18 @@ set_up() {
     look_for_header glm/glm.hpp libglm-dev
     look_for_header doctest/doctest.h doctest-dev
     look_for_header CLI/CLI.hpp libcli11-dev
+    look_for_header nlohmann/json.hpp nlohmann-json3-dev
     has_header stb_image.h || look_for_header stb/stb_image.h libstb-dev
     for extra; do
         case $extra in
             clang) look_for_tool clang++ clang ;;
+            checks) look_for_check_tools ;;
             xsimd) look_for_header xsimd/xsimd.hpp libxsimd-dev ;;
             shaders) look_for_shader_tools ;;
             measure) has_tool astcenc || others="$others astcenc" ;;
+            plots) has_tool gnuplot || others="$others gnuplot-nox" ;;
+            costs) look_for_cost_tools ;;
+            properties) has_header rapidcheck.h || others="$others librapidcheck-dev" ;;
         esac
     done
 
@@ -135,16 +156,87 @@ variant() {
     )
 }
 
+# Properties of a hundred times as many random maps as the test looks at. The seed is printed, and what it found wrong
+# can be had again with RC_PARAMS="seed=...".
+random_properties() {
+    if [ -x "$root/build/release/tests/bumpshadow_property_tests" ]; then
+        RC_PARAMS="max_success=4000" "$root/build/release/tests/bumpshadow_property_tests"
+    else
+        say "random properties skipped: no rapidcheck here"
+    fi
+}
+
 tidy() {
     if has_tool run-clang-tidy; then
         (cd "$root" && run-clang-tidy -quiet -p build/clang "^$root/(examples|tests)/")
     else
         say "clang-tidy skipped: not here"
     fi
+    if has_tool cppcheck; then
+        (cd "$root" && cppcheck --quiet --error-exitcode=1 --enable=warning,performance,portability --std=c++20 \
+            --inline-suppr --suppressions-list=cmake/cppcheck.txt -I include -I examples -I tests examples tests)
+    else
+        say "cppcheck skipped: not here"
+    fi
 }
 
-run_demo() {
-    output="$root/build/demo"
+# Each fuzz target for BUMPSHADOW_FUZZ_SECONDS, 600 if that is not set, starting from its corpus. A finding ends this
+# and leaves its input in build/fuzz.
+fuzz() {
+    seconds=${BUMPSHADOW_FUZZ_SECONDS:-600}
+    (
+        cd "$root"
+        cmake --preset clang -B build/fuzz -DBUMPSHADOW_FUZZ=ON -DBUMPSHADOW_TEST_HEADERS=OFF
+        cmake --build build/fuzz --target fuzz_bake fuzz_read fuzz_snippets
+        for target in bake read snippets; do
+            say "fuzzing $target for $seconds seconds"
+            mkdir -p "build/fuzz/corpus/$target"
+            "build/fuzz/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=60 -max_len=4000 -verbosity=0 \
+                -print_final_stats=1 -artifact_prefix="build/fuzz/$target-" "build/fuzz/corpus/$target" \
+                "tests/fuzz/corpus/$target"
+        done
+    )
+}
+
+# What runs in several threads, under the thread sanitizer. There is none of these for memory that was never written:
+# clang's needs a standard library built for it, which no distribution has. Valgrind looks for that instead.
+thread_sanitizer() {
+    say "thread sanitizer"
+    (
+        cd "$root"
+        cmake --preset debug -B build/thread -DBUMPSHADOW_TEST_HEADERS=OFF -DBUMPSHADOW_BUILD_BENCHMARKS=OFF \
+            -DCMAKE_CXX_COMPILER=clang++ "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1 -fsanitize=thread"
+        cmake --build build/thread --target bumpshadow_tests
+        ctest --test-dir build/thread --output-on-failure --no-tests=error \
+            --tests-regex '^(horizon|encode|reference|scratch|normal_map)'
+    )
+}
+
+# The programs under valgrind, which does not know AVX-512.
+under_valgrind() {
+    if ! has_tool valgrind; then
+        say "valgrind skipped: not here"
+        return 0
+    fi
+    (
+        cd "$root"
+        case $(uname -m) in
+            x86_64) flags=-march=x86-64-v3 ;;
+            *) flags='' ;;
+        esac
+        cmake --preset release -B build/valgrind -DBUMPSHADOW_NATIVE=OFF -DBUMPSHADOW_TEST_HEADERS=OFF \
+            "-DCMAKE_CXX_FLAGS=-g1 $flags"
+        cmake --build build/valgrind --target bake shade snippets program_test_images
+        sh tests/programs/valgrind.sh "$root/build/valgrind/examples" \
+            "$root/build/valgrind/tests/programs/program_test_images" "$root/build/valgrind/work"
+    )
+}
+
+# run_into PROGRAM ARGUMENT...: writes into build/PROGRAM unless the arguments name a folder.
+run_into() {
+    program=$1
+    shift
+    output="$root/build/$program"
     for argument; do
         case $argument in
             -o | -o* | --output | --output=*) output='' ;;
@@ -154,7 +246,7 @@ run_demo() {
         mkdir -p "$output"
         set -- "$@" -o "$output"
     fi
-    "$root/build/release/examples/demo" "$@"
+    "$root/build/release/examples/$program" "$@"
 }
 
 command=${1-}
@@ -167,27 +259,39 @@ if [ -n "${BUMPSHADOW_HEIGHT_MAPS-}" ]; then
     BUMPSHADOW_HEIGHT_MAPS=$(CDPATH='' cd -- "$BUMPSHADOW_HEIGHT_MAPS" && pwd)  # tests run in other folders
     export BUMPSHADOW_HEIGHT_MAPS
 fi
+if [ -n "${BUMPSHADOW_HLSL_COMPILERS-}" ]; then
+    [ -d "$BUMPSHADOW_HLSL_COMPILERS" ] ||
+        fail "BUMPSHADOW_HLSL_COMPILERS names no folder: $BUMPSHADOW_HLSL_COMPILERS"
+    BUMPSHADOW_HLSL_COMPILERS=$(CDPATH='' cd -- "$BUMPSHADOW_HLSL_COMPILERS" && pwd)
+    export BUMPSHADOW_HLSL_COMPILERS
+fi
 
 case $command in
     demo)
         set_up
         workflow demo
-        run_demo "$@"
+        run_into demo "$@"
+        ;;
+    report)
+        set_up measure plots costs
+        workflow report
+        run_into report "$@"
         ;;
     test | sanitize)
-        set_up shaders
+        set_up shaders properties
         workflow "$command"
         note_maps
         ;;
     clang)
-        set_up clang shaders
+        set_up clang shaders properties
         workflow clang
         note_maps
         ;;
     full)
-        set_up clang xsimd shaders measure
+        set_up clang xsimd shaders properties measure plots checks
         workflow test
         (cd "$root" && ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex slow)
+        random_properties
         workflow clang
         workflow sanitize
         variant scalar -DBUMPSHADOW_SIMD=none
@@ -196,7 +300,10 @@ case $command in
         # doctest's own switch for a build without exceptions; the programs need them.
         bare="-fno-exceptions -fno-rtti -DDOCTEST_CONFIG_NO_EXCEPTIONS_BUT_WITH_ALL_ASSERTS"
         variant bare -DBUMPSHADOW_BUILD_EXAMPLES=OFF "-DCMAKE_CXX_FLAGS=$bare"
+        thread_sanitizer
+        under_valgrind
         tidy
+        fuzz
         "$root/build/release/examples/benchmark"
         "$root/build/release/examples/encodings"
         # Built where Vulkan's loader and glslangValidator are.
@@ -205,6 +312,7 @@ case $command in
         else
             say "shader_cost skipped: not built"
         fi
+        run_into report
         note_maps
         ;;
     *)

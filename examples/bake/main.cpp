@@ -25,7 +25,9 @@
 #include "common/image.hpp"
 #include "common/method.hpp"
 #include "common/picture.hpp"
+#include "common/plan_json.hpp"
 #include "common/progress.hpp"
+#include "common/recipe.hpp"
 
 namespace {
 
@@ -38,6 +40,7 @@ struct arguments {
     horizon_settings horizons;
     encoding_settings encoding;
     bool encoding_given = false;
+    recipe_settings recipe;
     std::optional<int> bearings;
     std::optional<double> phase;
     int threads = 0;
@@ -120,18 +123,11 @@ std::filesystem::path numbered(std::filesystem::path path, std::size_t number) {
     return path;
 }
 
-void write_textures(const arguments& arguments, output_kind kind) {
-    if (arguments.phase) throw failure("--phase: slices of a texture start at 0");
-    encoding_settings settings = arguments.encoding;
-    settings.bearings = arguments.bearings;
-    const height_samples samples = read_heights(arguments.heights);
-    // Opened first, so that a folder that cannot be written is known before any work.
-    output_file first(arguments.output);
-    const encoded map = encode_heights(samples, arguments.heights, arguments.horizons, settings, arguments.threads);
+// first: opened before any work, so that a folder that cannot be written is known.
+void write_textures(const std::string& output, output_kind kind, output_file& first, const encoded& map) {
     std::vector<std::unique_ptr<output_file>> others;
     for (std::size_t i = 0; i < map.textures.size(); ++i) {
-        if (i > 0 && kind == output_kind::dds)
-            others.push_back(std::make_unique<output_file>(numbered(arguments.output, i)));
+        if (i > 0 && kind == output_kind::dds) others.push_back(std::make_unique<output_file>(numbered(output, i)));
         output_file& file = i == 0 || kind == output_kind::raw ? first : *others.back();
         if (kind == output_kind::dds)
             write_dds(file, map.textures[i].view());
@@ -142,18 +138,9 @@ void write_textures(const arguments& arguments, output_kind kind) {
     for (const auto& file : others) file->close();
     first.commit();
     for (const auto& file : others) file->commit();
+}
 
-    std::size_t bytes = 0;
-    for (const owned_texture& t : map.textures) bytes += t.bytes.size();
-    if (arguments.json || kind == output_kind::raw)
-        std::printf("{\"width\":%d,\"height\":%d,\"method\":\"%s\",\"steps\":%d,%s}\n", map.extent.x, map.extent.y,
-                    name_of(arguments.horizons.how).c_str(), arguments.horizons.options.steps, json_of(map).c_str());
-    else
-        std::printf(
-            "%s: %d x %d texels as %s, %zu texture%s of %.3g bytes a texel, baked in %.3f s, packed in %.3f s%s\n",
-            arguments.output.c_str(), map.extent.x, map.extent.y, name_of(settings.kind).c_str(), map.textures.size(),
-            map.textures.size() == 1 ? "" : "s", double(bytes) / (double(map.extent.x) * map.extent.y),
-            map.bake_seconds, map.pack_seconds, for_shaders(map).c_str());
+void say_clamped(const encoded& map) {
     if (map.report.clamped > 0)
         std::fprintf(
             stderr, "bake: %zu values lie beyond what stands for 1 and were stored as that%s\n", map.report.clamped,
@@ -161,16 +148,74 @@ void write_textures(const arguments& arguments, output_kind kind) {
                                        : "");
 }
 
+void print_line(const arguments& arguments, const encoded& map, const char* name) {
+    std::size_t bytes = 0;
+    for (const owned_texture& t : map.textures) bytes += t.bytes.size();
+    std::printf("%s: %d x %d texels as %s, %zu texture%s of %.3g bytes a texel, baked in %.3f s, packed in %.3f s%s\n",
+                arguments.output.c_str(), map.extent.x, map.extent.y, name, map.textures.size(),
+                map.textures.size() == 1 ? "" : "s", double(bytes) / (double(map.extent.x) * map.extent.y),
+                map.bake_seconds, map.pack_seconds, for_shaders(map).c_str());
+}
+
+void bake_encoding(const arguments& arguments, output_kind kind) {
+    if (arguments.phase) throw failure("--phase: slices of a texture start at 0");
+    encoding_settings settings = arguments.encoding;
+    settings.bearings = arguments.bearings;
+    const height_samples samples = read_heights(arguments.heights);
+    output_file file(arguments.output);
+    const encoded map = encode_heights(samples, arguments.heights, arguments.horizons, settings, arguments.threads);
+    write_textures(arguments.output, kind, file, map);
+    if (arguments.json || kind == output_kind::raw)
+        std::printf("{\"width\":%d,\"height\":%d,\"method\":\"%s\",\"steps\":%d,%s}\n", map.extent.x, map.extent.y,
+                    name_of(arguments.horizons.how).c_str(), arguments.horizons.options.steps, json_of(map).c_str());
+    else
+        print_line(arguments, map, name_of(settings.kind).c_str());
+    say_clamped(map);
+}
+
+void bake_planned(const arguments& arguments, output_kind kind) {
+    const height_samples samples = read_heights(arguments.heights);
+    output_file file(arguments.output);
+    std::optional<output_file> saved;
+    if (!arguments.recipe.save.empty()) saved.emplace(arguments.recipe.save);
+    const bs::recipe recipe = recipe_for(samples, arguments.heights, arguments.recipe);
+    std::optional<encoded> map;
+    if (recipe.shadows) map = bake_recipe(samples, arguments.heights, recipe, arguments.threads);
+    if (saved) {
+        saved->write(json_of(recipe) + "\n");
+        saved->close();
+    }
+    if (map) write_textures(arguments.output, kind, file, *map);
+    if (saved) saved->commit();
+
+    if (arguments.json || kind == output_kind::raw) {
+        const std::string constants = map ? json_of(*map) + "," : "";
+        std::printf("{\"width\":%d,\"height\":%d,%s\"recipe\":%s}\n", samples.extent.x, samples.extent.y,
+                    constants.c_str(), json_of(recipe).c_str());
+    } else if (map) {
+        print_line(arguments, *map, "planned");
+        std::fputs(text_of(recipe).c_str(), stdout);
+    } else {
+        std::printf("%s is not written: no shadows are needed\n%s", arguments.output.c_str(), text_of(recipe).c_str());
+    }
+}
+
 void work(const arguments& arguments) {
     const output_kind kind = kind_of(arguments.output);
     std::error_code ignored;
     if (std::filesystem::equivalent(arguments.heights.path, arguments.output, ignored))
         throw failure("cannot write " + arguments.output + ": it is the height map itself");
-    const bool textures = kind == output_kind::dds || kind == output_kind::raw;
-    if (arguments.encoding_given && !textures)
-        throw failure("cannot write " + arguments.output + " with --encoding: the extension has to be .dds or .raw");
-    if (textures)
-        write_textures(arguments, kind);
+    const bool textures = kind == output_kind::dds || kind == output_kind::raw, planned = arguments.recipe.given();
+    if ((arguments.encoding_given || planned) && !textures)
+        throw failure("cannot write " + arguments.output + " with " +
+                      (arguments.encoding_given        ? "--encoding"
+                       : arguments.recipe.plan.empty() ? "--recipe"
+                                                       : "--plan") +
+                      ": the extension has to be .dds or .raw");
+    if (planned)
+        bake_planned(arguments, kind);
+    else if (textures)
+        bake_encoding(arguments, kind);
     else
         write_slopes(arguments, kind);
     flush_stdout();
@@ -209,8 +254,10 @@ int main(int argc, char** argv) try {
         ->type_name("N");
     app.add_flag("--json", arguments.json, "print one line of JSON instead of a sentence");
     add_encoding_options(app, arguments.encoding, false);
+    add_recipe_options(app, arguments.recipe);
 
     return run_program(app, argc, argv, [&] {
+        check_recipe_options(app, arguments.recipe, arguments.heights.path, arguments.output, {"--json"});
         arguments.encoding_given = app.get_option("--encoding")->count() > 0;
         work(arguments);
     });

@@ -49,10 +49,11 @@ void read_arc(object arc, bs::light_arc& to) {
     if (arc.has("azimuth")) {
         const auto [first, last] = arc.range("azimuth");
         if (!(last > first)) arc.refuse("azimuth", "an arc: the second one above the first one");
-        if (last > first + 360.0) arc.refuse("azimuth", "a turn of 360 degrees at the most");
+        // Ends that are rounded: -487.3 and -127.3 are more than 360 apart.
+        const bool turn = std::abs(last - first - 360.0) < 1e-9;
+        if (last > first + 360.0 && !turn) arc.refuse("azimuth", "a turn of 360 degrees at the most");
         to.first_bearing = first / 360.0;
-        // Not more than a turn by rounding.
-        to.last_bearing = last == first + 360.0 ? to.first_bearing + 1.0 : last / 360.0;
+        to.last_bearing = turn ? to.first_bearing + 1.0 : last / 360.0;
     }
     if (arc.has("elevation")) {
         const auto [low, high] = arc.range("elevation");

@@ -16,6 +16,9 @@
 #include "common/file.hpp"
 #include "common/heights.hpp"
 #include "common/image.hpp"
+#include "common/plan_json.hpp"
+#include "common/recipe.hpp"
+#include "common/shading.hpp"
 #include "common/stone_wall.hpp"
 #include "shade/render.hpp"
 #include "shade/sheets.hpp"
@@ -31,6 +34,7 @@ struct arguments {
     std::vector<std::string> lightmaps;
     horizon_settings horizons;
     encoding_settings encoding;
+    recipe_settings recipe;
     std::optional<int> bearings;
     bs::normal_y normal_y = bs::normal_y::up;
     std::pair<double, double> light{-135.0, 30.0};
@@ -66,17 +70,6 @@ std::vector<float> read_normals(const arguments& arguments, glm::ivec2 extent) {
                                             {.y = arguments.normal_y}, {.values = planes, .extent = extent});
     if (!s) throw failure(arguments.normal + ": " + s.message().c_str());
     return planes;
-}
-
-// Textures go on as the map does. What is open has no texture beyond, and clamps.
-bs::address_mode address_of(bs::edge_mode edge) {
-    switch (edge) {
-        case bs::edge_mode::repeat: return bs::address_mode::repeat;
-        case bs::edge_mode::mirror: return bs::address_mode::mirror;
-        case bs::edge_mode::clamp:
-        case bs::edge_mode::open: break;
-    }
-    return bs::address_mode::clamp;
 }
 
 scene make_scene(const arguments& arguments) {
@@ -128,13 +121,25 @@ void work(const arguments& arguments) {
     if (arguments.k && arguments.hard) throw failure("--k and --hard exclude each other");
 
     output_file file(path);
-    const scene s = make_scene(arguments);
+    std::optional<output_file> saved;
+    if (!arguments.recipe.save.empty()) saved.emplace(arguments.recipe.save);
+    scene s = make_scene(arguments);
     const auto [azimuth, elevation] = arguments.light;
     image8 picture;
-    if (arguments.sheet) {
+    std::string title = arguments.sheet ? *arguments.sheet : name_of(settings.kind), why;
+    if (arguments.recipe.given()) {
+        const bs::recipe recipe = recipe_for(s.samples, s.source, arguments.recipe);
+        title = recipe.shadows ? "planned" : "no shadows";
+        why = text_of(recipe);
+        s.edge = recipe.edge;
+        shown what;
+        if (recipe.shadows) what = {encoding_kind::tangent, false, bake_recipe(s.samples, s.source, recipe, s.threads)};
+        picture = draw(s, what, light_direction(azimuth, elevation), arguments.factor);
+        if (saved) saved->write(json_of(recipe) + "\n");
+    } else if (arguments.sheet) {
         sheet_kind kind{};
-        for (const auto& [name, value] : sheet_names())
-            if (name == *arguments.sheet) kind = value;
+        for (const auto& [word, value] : sheet_names())
+            if (word == *arguments.sheet) kind = value;
         picture = draw_sheet(kind, s, settings, azimuth, elevation, arguments.factor);
     } else {
         picture = draw(s, prepare(s, settings), light_direction(azimuth, elevation), arguments.factor);
@@ -142,10 +147,11 @@ void work(const arguments& arguments) {
     if (!fits_png(picture.extent.x, picture.extent.y, picture.channels))
         throw failure("cannot write " + arguments.output + ": too large for a PNG");
     write_png(file, picture);
+    if (saved) saved->close();
     file.commit();
-    std::printf("%s: %d x %d pixels, %s, light from %g degrees, %g high\n", arguments.output.c_str(), picture.extent.x,
-                picture.extent.y, arguments.sheet ? arguments.sheet->c_str() : name_of(settings.kind).c_str(), azimuth,
-                elevation);
+    if (saved) saved->commit();
+    std::printf("%s: %d x %d pixels, %s, light from %g degrees, %g high\n%s", arguments.output.c_str(),
+                picture.extent.x, picture.extent.y, title.c_str(), azimuth, elevation, why.c_str());
     flush_stdout();
 }
 
@@ -212,7 +218,12 @@ int main(int argc, char** argv) try {
     add_height_options(app, arguments.heights, "default 1");
     add_horizon_options(app, arguments.horizons);
     add_encoding_options(app, arguments.encoding, true);
-    return run_program(app, argc, argv, [&] { work(arguments); });
+    add_recipe_options(app, arguments.recipe);
+    return run_program(app, argc, argv, [&] {
+        check_recipe_options(app, arguments.recipe, arguments.heights.path, arguments.output,
+                             {"--light", "--factor", "--normal", "--normal-y", "--diffuse", "--gpu-weights"});
+        work(arguments);
+    });
 } catch (const std::exception& error) {
     std::fprintf(stderr, "shade: %s\n", error.what());
     return 1;

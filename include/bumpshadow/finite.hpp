@@ -45,9 +45,9 @@ template <std::floating_point T>
 // True where the compiler was told that there is neither NaN nor infinity: -ffast-math, -ffinite-math-only, /fp:fast.
 // What needs NaN on its way refuses to run then.
 #if (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
-constexpr bool finite_math_only = true;
+inline constexpr bool finite_math_only = true;
 #else
-constexpr bool finite_math_only = false;
+inline constexpr bool finite_math_only = false;
 #endif
 
 }  // namespace bumpshadow

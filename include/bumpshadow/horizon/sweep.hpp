@@ -203,6 +203,8 @@ template <height_sample Sample, executor Executor = serial>
 // elevation of 0.01 to 0.03 degrees (99th percentile 0.2 to 0.7) on five real maps of 256 to 1024 texels a side, 16
 // directions. Over endless maps (repeat, mirror) occluders count up to one length of the map beyond it, or 256 texels
 // if that is more.
+// Cost: constant a sample, but for clamped maps that are much longer than wide: beyond the border a line bends at every
+// row that it crosses, so that slanted directions take longer by the ratio of the sides.
 template <height_sample Sample, executor Executor = serial>
 [[nodiscard]] status bake_sweep(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
                                 const horizon_map& out, const bake_options& options = {}, Executor&& execute = {}) {

@@ -81,11 +81,15 @@ struct recipe {
     std::array<plan_line, 20> why = {};
     int lines = 0;
 
-    // Adds a line, as printf does.
+    // Adds a line, as printf does; without values as it is.
     template <class... Values>
     void say(const char* format, Values... values) {
-        if (std::size_t(lines) < why.size())
-            std::snprintf(why[std::size_t(lines++)].text, sizeof plan_line::text, format, values...);
+        if (std::size_t(lines) == why.size()) return;
+        char* const text = why[std::size_t(lines++)].text;
+        if constexpr (sizeof...(values) == 0)
+            std::snprintf(text, sizeof plan_line::text, "%s", format);
+        else
+            std::snprintf(text, sizeof plan_line::text, format, values...);
     }
 };
 
