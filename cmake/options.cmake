@@ -7,6 +7,10 @@ if(MSVC)
 else()
     target_compile_options(bumpshadow_options INTERFACE
         -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion)
+    # Wrong about "x" + std::string in GCC 12 and 13 (its bugs 105329 and 105651).
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
+        target_compile_options(bumpshadow_options INTERFACE -Wno-restrict)
+    endif()
 endif()
 
 if(BUMPSHADOW_NATIVE)

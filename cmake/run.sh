@@ -278,7 +278,7 @@ case $command in
         run_into report "$@"
         ;;
     test | sanitize)
-        set_up shaders properties
+        if [ "${CXX-}" = clang++ ]; then set_up clang shaders properties; else set_up shaders properties; fi
         workflow "$command"
         note_maps
         ;;

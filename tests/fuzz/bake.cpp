@@ -282,7 +282,7 @@ void fuzz_samples(input& in, request r) {
     if (r.how == method::exact && endless) {
         r.options.region.extent = glm::min(r.options.region.extent, glm::ivec2(1));
         if (r.options.region.empty()) r.options.region = {{0, 0}, {1, 1}};
-        r.directions.resize(std::min<std::size_t>(r.directions.size(), 1));
+        if (r.directions.size() > 1) r.directions.erase(r.directions.begin() + 1, r.directions.end());
     }
     run(r, heights);
 }
