@@ -30,6 +30,7 @@
 #include <bumpshadow/measure.hpp>
 #include <bumpshadow/normal_map.hpp>
 #include <bumpshadow/pixels.hpp>
+#include <bumpshadow/plan.hpp>
 #include <bumpshadow/quantize.hpp>
 #include <bumpshadow/reference/lighting.hpp>
 #include <bumpshadow/reference/reflection.hpp>

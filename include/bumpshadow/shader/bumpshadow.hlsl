@@ -53,7 +53,7 @@
 //       float diffuse = max(dot(n, light), 0.0);
 //       float gloss = pow(max(dot(n, normalize(light + normalize(to_eye))), 0.0), 32.0);
 //       float shadow = shadow_map_factor();  // what you have
-//                                                           float max_slope = max(4.0, 1e-6);  // 4: as bake printed it; it may be 0
+//                                                           float max_slope = 4.0;  // as bake printed it; at least 1e-6
 //                                                           float w = bumpshadow_bearing(light.xy) + 0.5 / 8.0;
 //                                                           shadow *= bumpshadow_shadow(bumpshadow_level(light) / max_slope,
 //                                                                                       horizons.SampleLevel(linear_repeat, float3(uv, w), 0.0).r, 8.0);
