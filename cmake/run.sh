@@ -208,7 +208,7 @@ thread_sanitizer() {
             -DCMAKE_CXX_COMPILER=clang++ "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1 -fsanitize=thread"
         cmake --build build/thread --target bumpshadow_tests
         ctest --test-dir build/thread --output-on-failure --no-tests=error \
-            --tests-regex '^(horizon|encode|reference|scratch|normal_map)'
+            --tests-regex '^(horizon|encode|reference|measure|plan|faults|scratch|normal_map|factor_cube)'
     )
 }
 

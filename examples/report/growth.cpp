@@ -27,8 +27,7 @@ constexpr int usual_bearings = 8;
 // Seconds that a call takes at the most, in round numbers, and that a small bake is repeated for at each turn.
 constexpr double longest_call = 0.8, shortest_turn = 0.02;
 
-// The reach of the level that looks at each texel: the steps. Where the level above begins at K of its own cells, of
-// two texels, that is 2 K - 1.
+// Texels that are looked at one by one, beyond which levels of cells begin: all that a radius of so many leaves.
 double near_radius() { return bs::bake_options{}.steps; }
 
 // One thing that is measured.

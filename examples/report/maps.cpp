@@ -64,6 +64,21 @@ std::vector<height_source> sources_of(const std::string& path, const height_sour
     return sources;
 }
 
+// Four maps of the folder that the environment names, those that the README speaks of first.
+std::vector<height_source> usual_maps() {
+    const std::filesystem::path folder = known_folder();
+    if (folder.empty()) return {};
+    std::vector<height_source> all = read_manifest(folder);
+    std::stable_partition(all.begin(), all.end(), [](const height_source& map) {
+        const std::string name = name_of(map);
+        for (const char* usual : {"acg_Bricks059", "acg_RoofingTiles013A", "dx_stones", "ogre_Rock20"})
+            if (name.rfind(usual, 0) == 0) return true;
+        return false;
+    });
+    all.resize(std::min<std::size_t>(all.size(), 4));
+    return all;
+}
+
 // Records are told apart by the names of maps.
 std::string free_name(const std::string& wanted, const std::vector<report_map>& maps) {
     const auto taken = [&](const std::string& name) {
@@ -82,10 +97,13 @@ map_choice choose_maps(const std::vector<std::string>& paths, const height_sourc
     std::vector<height_source> sources;
     if (paths.empty()) {
         choice.maps.push_back(made_wall(settings));
-        if (!quick) sources = known_maps({"acg_Bricks059", "acg_RoofingTiles013A", "dx_stones", "ogre_Rock20"});
+        if (!quick) sources = usual_maps();
     }
-    for (const std::string& path : paths)
-        for (height_source& source : sources_of(path, settings)) sources.push_back(std::move(source));
+    for (const std::string& path : paths) try {
+            for (height_source& source : sources_of(path, settings)) sources.push_back(std::move(source));
+        } catch (const failure& error) {
+            choice.skipped.push_back({path, error.what()});
+        }
 
     for (height_source& source : sources) try {
             report_map map;

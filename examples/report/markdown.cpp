@@ -35,8 +35,8 @@ std::vector<std::string> conditions_of(const findings& all, const plot_outcome& 
     if (!run.partial.empty()) lines.push_back("PARTIAL: " + run.partial + ". What is not here was not measured.");
     lines.push_back(run.date + ", " + run.machine + format(", %d cores; ", run.cores) + build_text() + "; flags " +
                     run.flags + '.');
-    lines.push_back(format("Seed %u, times are the median of %d repeats%s.", run.seed, run.repeats,
-                           run.quick ? ", a coarse choice of set-ups (--quick)" : ""));
+    lines.push_back(format("Seed %u, times are medians of up to %d repeats, of growth the least%s.", run.seed,
+                           run.repeats, run.quick ? ", a coarse choice of set-ups (--quick)" : ""));
     const std::string times = names_of(all, column_kind::time), ratios = names_of(all, column_kind::ratio);
     if (!times.empty())
         lines.push_back("Absolute times of this machine, not comparable with those of another: " + times + ".");

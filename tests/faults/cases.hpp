@@ -1,6 +1,7 @@
 #pragma once
 
-// Everything in the library that takes memory or an executor, behind one face, for tests of what goes wrong.
+// The producers that take memory or an executor (bakes, packs, reductions, mips, samples), behind one face, for tests of
+// what goes wrong.
 
 #include <cstddef>
 #include <cstring>

@@ -13,6 +13,7 @@
 #include <glm/ext/vector_int2.hpp>
 
 #include <bumpshadow/bearing.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/height_bounds.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/cascade.hpp>
@@ -99,7 +100,7 @@ private:
             return r;
         }
         // Every texel, not only those of the sample.
-        for (const float slope : slopes) r.not_finite += std::isfinite(slope) ? 0 : 1;
+        for (const float slope : slopes) r.not_finite += bs::is_finite(slope) ? 0 : 1;
         std::vector<double> errors;
         for (std::size_t i = 0; i < exact_.size(); ++i) {
             const glm::ivec2 p = texels_[i % texels_.size()];
