@@ -44,7 +44,8 @@ std::vector<height_source> read_manifest(const std::filesystem::path& folder) {
         const auto number = [&](const std::string& text, bool positive) {
             char* end = nullptr;
             const double value = std::strtod(text.c_str(), &end);
-            if (text.empty() || end != text.c_str() + text.size() || !std::isfinite(value) || (positive && value <= 0.0))
+            if (text.empty() || end != text.c_str() + text.size() || !std::isfinite(value) ||
+                (positive && value <= 0.0))
                 throw failure("cannot use " + path.string() + ": line " + std::to_string(i + 1) + " has '" + text +
                               "' for a " + (positive ? "positive" : "finite") + " number");
             return value;

@@ -1,7 +1,7 @@
 #pragma once
 
-// The producers that take memory or an executor (bakes, packs, reductions, mips, samples), behind one face, for tests of
-// what goes wrong.
+// The producers that take memory or an executor (bakes, packs, reductions, mips, samples), behind one face, for tests
+// of what goes wrong.
 
 #include <cstddef>
 #include <cstring>
