@@ -212,29 +212,12 @@ int steps_of(const report_context& context, const report_map& map) {
 }  // namespace
 
 report_section encoding_section() {
-    report_section section{.name = section_name,
-                           .title = "Encodings: wrong answers about what is lit, over exact horizons",
-                           .steps = {},
-                           .seconds = {},
-                           .run = {}};
-    section.steps = [](const report_context& context) {
-        int steps = 0;
-        for (const report_map& map : context.maps)
-            if (sampled_patches(context, map) > 0) steps += steps_of(context, map);
-        return steps;
-    };
-    section.seconds = [](const report_context& context) {
-        return (context.quick ? 4.0 : 40.0) * double(context.maps.size());
-    };
-    section.run = [](const report_context& context) {
-        for (const report_map& map : context.maps) {
-            if (sampled_patches(context, map) > 0)
-                measure(context, map);
-            else
-                context.add(too_small(section_name, map));
-        }
-    };
-    return section;
+    return section_of({.name = section_name,
+                       .title = "Encodings: wrong answers about what is lit, over exact horizons",
+                       .steps = steps_of,
+                       .seconds = 40.0,
+                       .quick_seconds = 4.0,
+                       .measure = measure});
 }
 
 }  // namespace examples

@@ -17,9 +17,9 @@
 #include <bumpshadow/reference/shadow.hpp>
 
 #include "common/choices.hpp"
+#include "common/encoded_shadow.hpp"
 #include "common/encoding.hpp"
 #include "common/shading.hpp"
-#include "report/encoded_shadow.hpp"
 #include "report/image_setups.hpp"
 #include "report/lit_window.hpp"
 #include "report/sections.hpp"
@@ -62,7 +62,12 @@ public:
             if (!map)
                 compare(setup, map, bs::no_shadow{});
             else
-                with_encoded_shadow(*map, setup.settings.published, how_, bs::sun_radius,
+                with_encoded_shadow(*map,
+                                    {.how = how_,
+                                     .edge = {},
+                                     .light_radius = bs::sun_radius,
+                                     .published = setup.settings.published,
+                                     .emboss_shift = {}},
                                     [&](const auto& shadow) { compare(setup, map, shadow); });
         }
     }

@@ -42,11 +42,13 @@ saved_picture save(const std::filesystem::path& folder, const report_picture& pi
 
 void run_sections(std::span<const report_section> sections, const std::vector<report_map>& maps,
                   const std::filesystem::path& folder, findings& all) {
+    std::map<std::string, std::shared_ptr<const sample_map>> samples;
     report_context context{
         .maps = maps,
         .seed = all.run.seed,
         .repeats = all.run.repeats,
         .quick = all.run.quick,
+        .samples = samples,
         .add = [&](record r) { all.records.push_back(std::move(r)); },
         .show = [&](report_picture p) { all.pictures.push_back(save(folder, p, all.pictures.size())); },
         .step = {}};

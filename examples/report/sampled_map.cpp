@@ -2,41 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <variant>
+#include <utility>
 
 #include "common/report_text.hpp"
 #include "encodings/setups.hpp"
 
 namespace examples {
-namespace {
-
-// What tells one sample from another: FNV-1a over the heights and all that gives them a meaning.
-std::uint64_t key_of(const report_context& context, const report_map& map) {
-    std::uint64_t key = 14695981039346656037u;
-    const auto add = [&](const void* data, std::size_t size) {
-        const auto* bytes = static_cast<const unsigned char*>(data);
-        for (std::size_t i = 0; i < size; ++i) key = (key ^ bytes[i]) * 1099511628211u;
-    };
-    std::visit([&](const auto& samples) { add(samples.data(), samples.size() * sizeof samples[0]); },
-               map.heights.samples);
-    const double no_data = map.source.no_data.value_or(0.0);
-    const int rest[] = {map.heights.extent.x,
-                        map.heights.extent.y,
-                        int(map.source.edge),
-                        map.source.no_data ? 1 : 0,
-                        int(context.seed),
-                        sampled_patches(context, map),
-                        int(map.heights.samples.index())};
-    add(rest, sizeof rest);
-    add(&map.scale, sizeof map.scale);
-    add(&map.source.texel_size, sizeof map.source.texel_size);
-    add(&no_data, sizeof no_data);
-    return key;
-}
-
-}  // namespace
-
 named_map named(const report_map& map) { return {map.name, map.source, map.heights, map.scale}; }
 
 int sampled_patches(const report_context& context, const report_map& map) {
@@ -46,8 +17,7 @@ int sampled_patches(const report_context& context, const report_map& map) {
 }
 
 std::shared_ptr<const sample_map> sample_of(const report_context& context, const report_map& map) {
-    static std::map<std::uint64_t, std::shared_ptr<const sample_map>> samples;
-    std::shared_ptr<const sample_map>& known = samples[key_of(context, map)];
+    std::shared_ptr<const sample_map>& known = context.samples[map.name];
     const int patches = sampled_patches(context, map);
     const auto step = [&] { context.step("exact horizons of " + map.name); };
     if (known)
@@ -58,13 +28,33 @@ std::shared_ptr<const sample_map> sample_of(const report_context& context, const
     return known;
 }
 
-record too_small(const std::string& section, const report_map& map) {
-    record r;
-    r.section = section;
-    r.map = map.name;
-    r.name = "all set-ups";
-    r.skipped = format("the map is smaller than %d x %d texels", patch_side, patch_side);
-    return r;
+report_section section_of(patch_section all) {
+    const double full = all.seconds, quick = all.quick_seconds;
+    report_section section{.name = all.name, .title = std::move(all.title), .steps = {}, .seconds = {}, .run = {}};
+    section.steps = [steps = std::move(all.steps)](const report_context& context) {
+        int sum = 0;
+        for (const report_map& map : context.maps)
+            if (sampled_patches(context, map) > 0) sum += steps(context, map);
+        return sum;
+    };
+    section.seconds = [full, quick](const report_context& context) {
+        return (context.quick ? quick : full) * double(context.maps.size());
+    };
+    section.run = [name = all.name, measure = std::move(all.measure)](const report_context& context) {
+        for (const report_map& map : context.maps) {
+            if (sampled_patches(context, map) > 0) {
+                measure(context, map);
+                continue;
+            }
+            record r;
+            r.section = name;
+            r.map = map.name;
+            r.name = "all set-ups";
+            r.skipped = format("the map is smaller than %d x %d texels", patch_side, patch_side);
+            context.add(r);
+        }
+    };
+    return section;
 }
 
 sampled_map::sampled_map(const report_context& context, std::string section, sample_map sample)

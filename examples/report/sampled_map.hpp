@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -17,11 +18,19 @@ namespace examples {
 // Patches that are judged: 9 of a map, 4 where quick or where the map has no room for more, or 1; 0: too small a map.
 [[nodiscard]] int sampled_patches(const report_context& context, const report_map& map);
 
-// The exact horizons of these patches, baked once in a run, with a step after each patch. The map has room for them.
+// The exact horizons of these patches, baked once in a run (context.samples), with a step after each patch. The map has
+// room for them.
 [[nodiscard]] std::shared_ptr<const sample_map> sample_of(const report_context& context, const report_map& map);
 
-// A record of a map that is too small for a patch.
-[[nodiscard]] record too_small(const std::string& section, const report_map& map);
+// A section that judges patches of each map. Maps without room for one are named in a record.
+//   steps: of one map; seconds: roughly, of one map, in full and where quick
+struct patch_section {
+    std::string name, title;
+    std::function<int(const report_context&, const report_map&)> steps;
+    double seconds = 1.0, quick_seconds = 1.0;
+    std::function<void(const report_context&, const report_map&)> measure;
+};
+[[nodiscard]] report_section section_of(patch_section all);
 
 // A sample in the cuts that set-ups need, and the way from scores to records.
 class sampled_map {

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,8 @@
 #include "report/record.hpp"
 
 namespace examples {
+
+struct sample_map;
 
 // A height map of the report.
 struct report_map {
@@ -33,6 +37,7 @@ struct report_context {
     std::uint32_t seed = 1;
     int repeats = 5;     // of what is timed
     bool quick = false;  // a coarse choice: all of it within 20 seconds on two cores for one map of 512 x 512
+    std::map<std::string, std::shared_ptr<const sample_map>>& samples;  // of the maps, by name, once they are baked
     std::function<void(record)> add;
     std::function<void(report_picture)> show;
     std::function<void(const std::string& what)> step;

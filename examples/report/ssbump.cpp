@@ -59,29 +59,13 @@ void measure(const report_context& context, const report_map& from) {
 }  // namespace
 
 report_section ssbump_section() {
-    report_section section{.name = section_name,
-                           .title = "SSBump maps: light from three lightmaps and normals, against traced light",
-                           .steps = {},
-                           .seconds = {},
-                           .run = {}};
-    section.steps = [](const report_context& context) {
-        int steps = 0;
-        for (const report_map& map : context.maps)
-            if (const int patches = sampled_patches(context, map); patches > 0) steps += patches + 3;
-        return steps;
-    };
-    section.seconds = [](const report_context& context) {
-        return (context.quick ? 0.2 : 1.0) * double(context.maps.size());
-    };
-    section.run = [](const report_context& context) {
-        for (const report_map& map : context.maps) {
-            if (sampled_patches(context, map) > 0)
-                measure(context, map);
-            else
-                context.add(too_small(section_name, map));
-        }
-    };
-    return section;
+    return section_of({.name = section_name,
+                       .title = "SSBump maps: light from three lightmaps and normals, against traced light",
+                       .steps = [](const report_context& context,
+                                   const report_map& map) { return sampled_patches(context, map) + 3; },
+                       .seconds = 1.0,
+                       .quick_seconds = 0.2,
+                       .measure = measure});
 }
 
 }  // namespace examples

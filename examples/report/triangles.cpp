@@ -36,30 +36,14 @@ void measure(const report_context& context, const report_map& from) {
 }  // namespace
 
 report_section triangle_section() {
-    report_section section{
-        .name = section_name,
-        .title = "Light interpolated over triangles: wrong answers against the light at the point, 16 slices",
-        .steps = {},
-        .seconds = {},
-        .run = {}};
-    section.steps = [](const report_context& context) {
-        int steps = 0;
-        for (const report_map& map : context.maps)
-            if (const int patches = sampled_patches(context, map); patches > 0) steps += patches + triangle_pauses;
-        return steps;
-    };
-    section.seconds = [](const report_context& context) {
-        return (context.quick ? 0.3 : 3.0) * double(context.maps.size());
-    };
-    section.run = [](const report_context& context) {
-        for (const report_map& map : context.maps) {
-            if (sampled_patches(context, map) > 0)
-                measure(context, map);
-            else
-                context.add(too_small(section_name, map));
-        }
-    };
-    return section;
+    return section_of(
+        {.name = section_name,
+         .title = "Light interpolated over triangles: wrong answers against the light at the point, 16 slices",
+         .steps = [](const report_context& context,
+                     const report_map& map) { return sampled_patches(context, map) + triangle_pauses; },
+         .seconds = 3.0,
+         .quick_seconds = 0.3,
+         .measure = measure});
 }
 
 }  // namespace examples

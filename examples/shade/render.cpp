@@ -14,6 +14,7 @@
 #include <bumpshadow/reference/sampler.hpp>
 #include <bumpshadow/reference/shadow.hpp>
 
+#include "common/encoded_shadow.hpp"
 #include "common/progress.hpp"
 
 namespace examples {
@@ -28,10 +29,9 @@ void require(const bs::status& status) {
 
 // The size of a shift that shows the relief of this map, in texels.
 double shift_of(const scene& scene, const encoded& map) {
-    bs::emboss_shift_range range;
-    require(bs::measure_emboss_shift(map.textures[0].view(), range));
-    if (!scene.emboss_shift) return std::max(1.0, 0.5 * double(range.smallest + range.largest));
-    if (const bs::status s = bs::check_emboss_shift(float(*scene.emboss_shift), range); !s)
+    const emboss_shift_choice choice = emboss_shift_of(map);
+    if (!scene.emboss_shift) return choice.usual;
+    if (const bs::status s = bs::check_emboss_shift(float(*scene.emboss_shift), choice.range); !s)
         std::fprintf(stderr, "shade: warning: %s\n", s.message().c_str());
     return *scene.emboss_shift;
 }
@@ -39,14 +39,11 @@ double shift_of(const scene& scene, const encoded& map) {
 // Calls use(shadow) with a callable that shade() takes.
 template <class Use>
 void with_shadow(const scene& scene, const shown& what, glm::vec3 light, const Use& use) {
-    // A hard edge is the limit of a small light.
-    bs::shadow_edge edge;
-    double radius = 0.0;
-    if (scene.edge)
-        edge = *scene.edge;
-    else if (scene.light_radius > 0.0)
-        edge.c = 0.5f, radius = scene.light_radius;
-
+    shadow_style style{.how = scene.how,
+                       .edge = scene.edge,
+                       .light_radius = scene.light_radius,
+                       .published = what.published,
+                       .emboss_shift = {}};
     if (what.kind == encoding_kind::none) return use(bs::no_shadow{});
     if (what.kind == encoding_kind::traced) {
         owned_texture slopes(layout_of(bs::traced{}, scene.samples.extent));
@@ -61,35 +58,10 @@ void with_shadow(const scene& scene, const shown& what, glm::vec3 light, const U
                           {.values = values, .extent = scene.samples.extent, .bearings = 1}, execute);
         }
         std::copy_n(reinterpret_cast<const std::byte*>(values.data()), slopes.bytes.size(), slopes.bytes.data());
-        return use(bs::encoded_shadow<bs::traced>{{}, slopes.view(), scene.how, edge, radius});
+        return use(bs::encoded_shadow<bs::traced>{{}, slopes.view(), scene.how, edge_of(style), radius_of(style)});
     }
-    const std::vector<owned_texture>& textures = what.map->textures;
-    std::visit(
-        [&]<class Encoding>(const Encoding& e) {
-            if constexpr (std::is_same_v<Encoding, bs::fourier>) {
-                bs::fourier_textures all{{}, decoding_of(e)};
-                for (std::size_t i = 0; i < textures.size(); ++i) all.maps[i] = textures[i].view();
-                // The post's edge belongs to its form.
-                if (what.published && !scene.edge && scene.light_radius > 0.0)
-                    edge = {bs::fourier_posted_k, bs::fourier_posted_c}, radius = 0.0;
-                use(bs::encoded_shadow<Encoding, bs::fourier_textures>{e, all, scene.how, edge, radius});
-            } else if constexpr (std::is_same_v<Encoding, bs::sine_layers>) {
-                if (!what.published)
-                    return use(bs::encoded_shadow<Encoding>{e, textures[0].view(), scene.how, edge, radius});
-                const bs::factor_cube cube = bs::factor_cube_as_published();
-                owned_texture factors(layout_of(cube));
-                require(write_factor_cube(cube, factors.view()));
-                const bs::with_factor_cube<bs::const_texture> with_cube{textures[0].view(), factors.view(), cube.form};
-                use(bs::encoded_shadow<Encoding, bs::with_factor_cube<bs::const_texture>>{e, with_cube, scene.how, edge,
-                                                                                          radius});
-            } else if constexpr (std::is_same_v<Encoding, bs::emboss>) {
-                const glm::vec2 amount = float(shift_of(scene, *what.map)) / glm::vec2(scene.samples.extent);
-                use(bs::encoded_shadow<Encoding, bs::emboss_texture>{e, {textures[0].view(), amount}, scene.how});
-            } else {
-                use(bs::encoded_shadow<Encoding>{e, textures[0].view(), scene.how, edge, radius});
-            }
-        },
-        what.map->how);
+    if (what.kind == encoding_kind::emboss) style.emboss_shift = shift_of(scene, *what.map);
+    with_encoded_shadow(*what.map, style, use);
 }
 
 glm::vec3 texel_at(const image8& picture, glm::vec2 uv) {
