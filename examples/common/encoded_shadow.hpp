@@ -32,8 +32,7 @@ struct emboss_shift_choice {
 };
 [[nodiscard]] inline emboss_shift_choice emboss_shift_of(const encoded& map) {
     emboss_shift_choice choice;
-    if (const bumpshadow::status s = bumpshadow::measure_emboss_shift(map.textures[0].view(), choice.range); !s)
-        throw failure(s.message().c_str());
+    require(bumpshadow::measure_emboss_shift(map.textures[0].view(), choice.range));
     choice.usual = std::max(1.0, 0.5 * double(choice.range.smallest + choice.range.largest));
     return choice;
 }
@@ -69,8 +68,7 @@ void with_encoded_shadow(const encoded& map, const shadow_style& style, const Us
                     return use(bs::encoded_shadow<Encoding>{e, textures[0].view(), how, edge, radius});
                 const bs::factor_cube cube = bs::factor_cube_as_published();
                 owned_texture factors(layout_of(cube));
-                if (const bs::status s = write_factor_cube(cube, factors.view()); !s)
-                    throw failure(s.message().c_str());
+                require(write_factor_cube(cube, factors.view()));
                 const bs::with_factor_cube<bs::const_texture> with_cube{textures[0].view(), factors.view(), cube.form};
                 use(bs::encoded_shadow<Encoding, bs::with_factor_cube<bs::const_texture>>{e, with_cube, how, edge,
                                                                                           radius});

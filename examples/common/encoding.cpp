@@ -26,10 +26,6 @@ using clock = std::chrono::steady_clock;
 
 double seconds_since(clock::time_point start) { return std::chrono::duration<double>(clock::now() - start).count(); }
 
-void require(const bs::status& status) {
-    if (!status) throw failure(status.message().c_str());
-}
-
 // Horizons with their memory.
 struct horizons {
     std::vector<float> values;

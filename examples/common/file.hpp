@@ -8,12 +8,19 @@
 #include <string_view>
 #include <vector>
 
+#include <bumpshadow/status.hpp>
+
 namespace examples {
 
 // What the programs throw where they cannot go on; its text is for a person and names the file or option.
 struct failure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
+
+// Throws failure where a call of the library failed.
+inline void require(const bumpshadow::status& status) {
+    if (!status) throw failure(status.message().c_str());
+}
 
 // All bytes of a file. Throws failure.
 [[nodiscard]] std::vector<unsigned char> read_file(const std::filesystem::path& path);

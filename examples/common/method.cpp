@@ -65,7 +65,7 @@ void bake_horizons(const height_samples& samples, const height_source& source, c
         return bs::bake_cascade(map, directions, out, options, execute);
     };
     const bs::status status = with_height_map(samples, source, source.height_scale.value_or(1.0), bake);
-    if (!status) throw failure(status.message().c_str());
+    require(status);
 }
 
 }  // namespace examples

@@ -30,10 +30,6 @@ using clock = std::chrono::steady_clock;
 
 double seconds_since(clock::time_point start) { return std::chrono::duration<double>(clock::now() - start).count(); }
 
-void require(const bs::status& status) {
-    if (!status) throw failure(status.message().c_str());
-}
-
 recipe_horizons make_horizons(glm::ivec2 extent, std::vector<glm::dvec2> directions) {
     recipe_horizons h;
     h.directions = std::move(directions);

@@ -76,7 +76,7 @@ template <class Shadow, bumpshadow::executor Executor>
         s = bumpshadow::to_srgb8(
             picture, {.bytes = std::as_writable_bytes(std::span(srgb.samples)), .extent = extent, .channels = 3}, 1.0f,
             execute);
-    if (!s) throw failure(s.message().c_str());
+    require(s);
     for (std::size_t i = 0; i < texels; ++i)
         if (surface.normals[2 * texels + i] == 0.0f) std::fill_n(srgb.samples.begin() + std::ptrdiff_t(3 * i), 3, 28);
     return srgb;

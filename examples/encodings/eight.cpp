@@ -23,8 +23,8 @@ score measure(const sample_map& map, const eight_setup& s) {
     stored texture(bs::layout_of(s.encoding, slopes.extent));
     const bs::texture view = texture.view();
     const std::vector<glm::dvec2> directions = map.directions_of(32);
-    expect(s.averaged ? bs::pack_sine_layers_averaged(slopes, directions, s.encoding, {}, {&view, 1})
-                      : bs::pack_sine_layers(slopes, directions, s.encoding, {}, {&view, 1}));
+    require(s.averaged ? bs::pack_sine_layers_averaged(slopes, directions, s.encoding, {}, {&view, 1})
+                       : bs::pack_sine_layers(slopes, directions, s.encoding, {}, {&view, 1}));
     const auto layer0 = texel_centers(texture, 0, map.extent), layer1 = texel_centers(texture, 1, map.extent);
 
     judge judge(map, s.encoding.scale, s.margin);
@@ -42,7 +42,7 @@ score measure(const sample_map& map, const eight_setup& s) {
     }
     // The factors of a cube depend on the elevation, too.
     stored cube(bs::layout_of(*s.cube));
-    expect(bs::write_factor_cube(*s.cube, cube.view()));
+    require(bs::write_factor_cube(*s.cube, cube.view()));
     for (std::size_t e = 0; e < light_elevations.size(); ++e) {
         const double angle = light_elevations[e] * std::numbers::pi / 180.0;
         for (int b = 0; b < light_bearings; ++b) {

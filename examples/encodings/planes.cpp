@@ -64,7 +64,7 @@ horizons reduced(const bs::horizon_map& slopes, const bs::horizon_scale& scale, 
     const glm::ivec2 extent = bs::reduced_extent(slopes.extent, factor);
     small.values.resize(bs::required_size(extent, slopes.bearings));
     small.view = {.values = small.values, .extent = extent, .bearings = slopes.bearings};
-    expect(bs::reduce(slopes, scale, small.view));
+    require(bs::reduce(slopes, scale, small.view));
     return small;
 }
 
@@ -75,7 +75,7 @@ planes fit_planes(const bs::horizon_map& slopes, std::span<const glm::dvec2> dir
     p.values.assign(std::size_t(slices.count), std::vector<float>(width * std::size_t(slopes.extent.y)));
     bs::pack_options options;
     options.fit = fit;
-    expect(bs::for_slice_rows(
+    require(bs::for_slice_rows(
         slopes, directions, slices, scale, options, bs::serial{}, [&](int slice, int y, const float* values) {
             std::copy_n(values, width, p.values[std::size_t(slice)].data() + std::size_t(y) * width);
         }));

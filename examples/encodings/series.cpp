@@ -22,13 +22,13 @@ std::vector<std::vector<glm::vec4>> coefficients_of(const sample_map& map, const
     const horizons small = s.reduced > 1 ? reduced(map.every(directions), encoding.scale, s.reduced) : horizons{};
     const bs::horizon_map slopes = s.reduced > 1 ? small.view : map.every(directions);
     const std::vector<glm::dvec2> ways = map.directions_of(directions);
-    if (s.tightened) expect(bs::tighten_ranges(slopes, ways, encoding, {}));
+    if (s.tightened) require(bs::tighten_ranges(slopes, ways, encoding, {}));
     std::vector<stored> textures;
     std::vector<bs::texture> views;
     for (int i = 0; i < bs::texture_count(encoding); ++i)
         textures.emplace_back(bs::layout_of(encoding, slopes.extent, 1, i));
     for (stored& texture : textures) views.push_back(texture.view());
-    expect(bs::pack_fourier(slopes, ways, encoding, {}, views));
+    require(bs::pack_fourier(slopes, ways, encoding, {}, views));
 
     const bs::fourier_decoding decoding = bs::decoding_of(encoding);
     std::vector<std::vector<glm::vec4>> all;

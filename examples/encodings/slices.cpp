@@ -132,8 +132,8 @@ setup layers(const layers_setup& s, std::optional<double> most) {
         each_map(maps, [&](const sample_map& map) {
             stored& texture = textures[std::size_t(&map - maps.data())];
             texture = stored(bs::layout_of(s.encoding, map.extent));
-            expect(bs::pack_slice_layers(map.every(s.directions), map.directions_of(s.directions), s.encoding, {},
-                                         texture.view()));
+            require(bs::pack_slice_layers(map.every(s.directions), map.directions_of(s.directions), s.encoding, {},
+                                          texture.view()));
             return 0.0;
         });
         if (s.compressed) {

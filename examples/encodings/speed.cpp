@@ -23,10 +23,6 @@ namespace bs = bumpshadow;
 
 constexpr int directions = 32;
 
-void expect(const bs::status& s) {
-    if (!s) throw failure(s.message().c_str());
-}
-
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t half = values.size() / 2;
@@ -56,7 +52,7 @@ public:
         bs::pack_options options;
         options.fit = fit_;
         options.scratch = scratch_;
-        expect(bs::pack_tangent_volume(slopes_, ways_, encoding_, options, {bytes_, layout_}));
+        require(bs::pack_tangent_volume(slopes_, ways_, encoding_, options, {bytes_, layout_}));
     }
     [[nodiscard]] const bs::tangent_volume& encoding() const { return encoding_; }
     [[nodiscard]] bs::const_texture texture() const { return {bytes_, layout_}; }
@@ -81,7 +77,7 @@ speeds measure_speed(const height_samples& heights, const height_source& source,
 
     const auto bake = [&] {
         with_height_map(heights, source, height_scale,
-                        [&](const auto& view) { expect(bs::bake_cascade(view, ways, slopes)); });
+                        [&](const auto& view) { require(bs::bake_cascade(view, ways, slopes)); });
     };
     bake();
     // What is packed, for the bars and for the shading first.
@@ -107,15 +103,15 @@ speeds measure_speed(const height_samples& heights, const height_source& source,
                                                         .textures = kinds[0].pack.texture()};
     bs::shade_options light;
     light.light.direction = {0.8f, 0.5f, 0.4f};
-    const auto shade = [&] { expect(bs::shade(light, shadow, bs::flat_surface{extent}, {picture, extent})); };
+    const auto shade = [&] { require(bs::shade(light, shadow, bs::flat_surface{extent}, {picture, extent})); };
     shade();
 
     std::vector<float> normal_values(3 * std::size_t(extent.x) * std::size_t(extent.y));
     const bs::normal_map normals{.values = normal_values, .extent = extent};
-    with_height_map(heights, source, height_scale, [&](const auto& view) { expect(bs::bake_normals(view, normals)); });
+    with_height_map(heights, source, height_scale, [&](const auto& view) { require(bs::bake_normals(view, normals)); });
     const bs::texture_layout layout = bs::layout_of(bs::ssbump{}, extent);
     std::vector<std::byte> masks(layout.required_size());
-    const auto mask = [&] { expect(bs::pack_ssbump(slopes, ways, normals, {}, {masks, layout})); };
+    const auto mask = [&] { require(bs::pack_ssbump(slopes, ways, normals, {}, {masks, layout})); };
     mask();
 
     // By turns, so that a machine that becomes slower or faster meanwhile does not matter to the shares.

@@ -67,7 +67,7 @@ struct normals {
 
 void bake_whole(const named_map& map, const normals& out) {
     with_height_map(map.heights, map.source, map.scale,
-                    [&](const auto& heights) { expect(bs::bake_normals(heights, out.view)); });
+                    [&](const auto& heights) { require(bs::bake_normals(heights, out.view)); });
 }
 
 // Those of a sample's texels.
@@ -78,15 +78,15 @@ void bake_patches(const named_map& map, const sample_map& sample, normals& out) 
                                    .row_stride = std::size_t(sample.extent.x),
                                    .plane_stride = sample.texels()};
         with_height_map(map.heights, map.source, map.scale, [&](const auto& heights) {
-            expect(bs::bake_normals(heights, patch, {sample.origins[i], glm::ivec2(sample.side)}));
+            require(bs::bake_normals(heights, patch, {sample.origins[i], glm::ivec2(sample.side)}));
         });
     }
 }
 
 stored pack(const sample_map& sample, const normals& surface, const bs::ssbump& encoding) {
     stored texture(bs::layout_of(encoding, sample.extent));
-    expect(bs::pack_ssbump(sample.every(mask_bearings), sample.directions_of(mask_bearings), surface.view, encoding,
-                           texture.view()));
+    require(bs::pack_ssbump(sample.every(mask_bearings), sample.directions_of(mask_bearings), surface.view, encoding,
+                            texture.view()));
     return texture;
 }
 
@@ -115,11 +115,11 @@ std::vector<double> measure_normals(const named_map& map, const sample_map& samp
     bake_whole(map, surface);
     const bs::ssbump open{.occlusion = bs::mask_occlusion::none};
     stored masks(bs::layout_of(open, extent));
-    expect(bs::pack_ssbump(surface.view, open, masks.view()));
-    expect(bs::recover_normals(masks.view(), open, recovered.view));
+    require(bs::pack_ssbump(surface.view, open, masks.view()));
+    require(bs::recover_normals(masks.view(), open, recovered.view));
     std::vector<std::byte> bytes(4 * surface.texels());
-    expect(bs::encode_normals(surface.view, {}, {bytes, extent}));
-    expect(bs::decode_normals({bytes, extent}, {}, plain.view));
+    require(bs::encode_normals(surface.view, {}, {bytes, extent}));
+    require(bs::decode_normals({bytes, extent}, {}, plain.view));
     average gentle, beyond, by_normal_map;
     for (std::size_t i = 0; i < surface.texels(); ++i) {
         const bool is_gentle = double(surface[i].z) > std::cos(steep * degree);
@@ -128,10 +128,10 @@ std::vector<double> measure_normals(const named_map& map, const sample_map& samp
     }
 
     normals bent(sample.extent), seen(sample.extent), level(sample.extent), level_seen(sample.extent);
-    expect(bs::bend_normals(sample.every(light_bearings), sample.directions, bent.view));
-    expect(bs::recover_normals(pack(sample, patches, {}).view(), {}, seen.view));
+    require(bs::bend_normals(sample.every(light_bearings), sample.directions, bent.view));
+    require(bs::recover_normals(pack(sample, patches, {}).view(), {}, seen.view));
     std::fill(level.values.begin() + std::ptrdiff_t(2 * level.texels()), level.values.end(), 1.0f);
-    expect(bs::recover_normals(pack(sample, level, {}).view(), {}, level_seen.view));
+    require(bs::recover_normals(pack(sample, level, {}).view(), {}, level_seen.view));
     average to_bent, apart, to_surface, level_to_bent, level_apart;
     for (std::size_t i = 0; i < bent.texels(); ++i) {
         to_bent.add(degrees_between(seen[i], bent[i]));

@@ -12,10 +12,6 @@ namespace examples {
 namespace bs = bumpshadow;
 namespace shader = bumpshadow::shader;
 
-void expect(const bs::status& s) {
-    if (!s) throw failure(s.message().c_str());
-}
-
 std::vector<glm::vec4> texel_centers(const stored& texture, int index, glm::ivec2 extent) {
     const bs::const_texture from = texture.view();
     std::vector<glm::vec4> values;

@@ -21,9 +21,6 @@
 
 namespace examples {
 
-// Throws failure where a call of the library failed.
-void expect(const bumpshadow::status& s);
-
 // work(i) for i from 0 to count - 1 on all cores; what is thrown there is thrown here.
 template <class Work>
 void on_all_cores(std::size_t count, const Work& work) {

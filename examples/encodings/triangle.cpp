@@ -122,7 +122,7 @@ private:
     stored pack(const sample_map& map) {
         encoding_.slices.count = 16;
         stored volume(bs::layout_of(encoding_, map.extent));
-        expect(bs::pack_tangent_volume(map.every(light_bearings), map.directions, encoding_, {}, volume.view()));
+        require(bs::pack_tangent_volume(map.every(light_bearings), map.directions, encoding_, {}, volume.view()));
         return volume;
     }
     // Of a texel that the high bits draw: filtering between texels gives that one alone.

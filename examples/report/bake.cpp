@@ -32,10 +32,6 @@ constexpr std::size_t between_yardsticks = 4;
 constexpr int part_of_rows = 16;
 constexpr double small_radius = 16.0;  // texels up to which they are all baked
 
-void require(const bs::status& status) {
-    if (!status) throw failure(status.message().c_str());
-}
-
 struct contender {
     std::string family;
     bake_setup setup;

@@ -11,7 +11,7 @@
 #include <bumpshadow/horizon/neighborhood.hpp>
 #include <bumpshadow/horizon/sweep.hpp>
 
-#include "common/file.hpp"
+#include "common/progress.hpp"
 
 namespace examples {
 namespace {
@@ -67,20 +67,10 @@ void baker::bake(const bake_setup& setup, std::size_t first, std::size_t count) 
         out.slice_stride = out.slice_step();
         out.extent.y = setup.rows;
     }
-    const auto with = [&](auto execute) {
-        return with_height_map(heights_, source_, scale_, [&](const auto& map) {
-            switch (setup.how) {
-                case method::exact: return bs::bake_exact(map, directions, out, options, execute);
-                case method::sweep: return bs::bake_sweep(map, directions, out, options, execute);
-                case method::sweep_classic: return bs::bake_sweep_classic(map, directions, out, options, execute);
-                case method::neighborhood: return bs::bake_neighborhood(map, directions, out, options, execute);
-                case method::cascade: break;
-            }
-            return bs::bake_cascade(map, directions, out, options, execute);
-        });
-    };
-    const bs::status status = setup.threads == 1 ? with(bs::serial{}) : with(bs::threads(setup.threads));
-    if (!status) throw failure(name_of(setup.how) + ": " + status.message().c_str());
+    height_source source = source_;
+    source.height_scale = scale_;
+    const progress execute(bs::threads(setup.threads), "", false);
+    bake_horizons(heights_, source, {setup.how, options}, directions, out, execute);
 }
 
 double baker::time(const bake_setup& setup, std::size_t first, std::size_t count) {

@@ -18,10 +18,6 @@ namespace {
 
 namespace bs = bumpshadow;
 
-void require(const bs::status& status) {
-    if (!status) throw failure(status.message().c_str());
-}
-
 bs::const_pixels pixels_of(const image8& picture) {
     return {std::as_bytes(std::span(picture.samples)), picture.extent, picture.channels};
 }

@@ -27,10 +27,6 @@ namespace {
 
 namespace bs = bumpshadow;
 
-void require(const bs::status& status) {
-    if (!status) throw failure(status.message().c_str());
-}
-
 std::size_t texels_of(const bs::normal_map& normals) {
     return std::size_t(normals.extent.x) * std::size_t(normals.extent.y);
 }

@@ -23,10 +23,6 @@ namespace {
 
 namespace bs = bumpshadow;
 
-void require(const bs::status& status) {
-    if (!status) throw failure(status.message().c_str());
-}
-
 // The size of a shift that shows the relief of this map, in texels.
 double shift_of(const scene& scene, const encoded& map) {
     const emboss_shift_choice choice = emboss_shift_of(map);

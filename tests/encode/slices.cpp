@@ -13,6 +13,7 @@
 #include <numeric>
 #include <vector>
 
+#include "support/executors.hpp"
 #include "support/horizons.hpp"
 #include "support/shapes.hpp"
 
@@ -150,15 +151,6 @@ void fill_peaks(const horizons& map, std::uint64_t seed) {
             }
         }
 }
-
-// Runs items backwards, so that an order that matters shows.
-struct backwards {
-    [[nodiscard]] int concurrency() const { return 1; }
-    template <class Body>
-    void operator()(std::size_t count, Body&& body) const {
-        while (count-- > 0) body(count);
-    }
-};
 
 }  // namespace
 
@@ -390,7 +382,7 @@ TEST_CASE("wide maps, bands and any executor give the same bits") {
             };
             CHECK(with(serial{}));
             CHECK(with(threads(3)));
-            CHECK(with(backwards{}));
+            CHECK(with(executors::backwards{}));
         }
         // A texel is the same wherever it lies in the map.
         if (extent.x > 500) {

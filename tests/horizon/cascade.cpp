@@ -15,6 +15,7 @@
 
 #include <bumpshadow/horizon/exact.hpp>
 
+#include "support/executors.hpp"
 #include "support/shapes.hpp"
 
 using namespace bumpshadow;
@@ -661,24 +662,6 @@ TEST_CASE("cascade: directions of any length and number") {
 
 namespace {
 
-// Runs the last item first.
-struct backwards {
-    [[nodiscard]] int concurrency() const { return 1; }
-    template <class Body>
-    void operator()(std::size_t count, Body&& body) const {
-        for (std::size_t i = count; i-- > 0;) body(i);
-    }
-};
-
-// Says that it runs one item at a time and runs eight, last ones first.
-struct unruly {
-    [[nodiscard]] int concurrency() const { return 1; }
-    template <class Body>
-    void operator()(std::size_t count, Body&& body) const {
-        threads{8}(count, [&](std::size_t i) { body(count - 1 - i); });
-    }
-};
-
 // Texels where a and b differ at all.
 int differing(const slopes& a, const slopes& b) {
     REQUIRE(a.size() == b.size());
@@ -699,8 +682,8 @@ TEST_CASE("cascade: the result does not depend on the executor or on the other d
             const slopes all = baked(view, directions, usual);
             for (const int count : {2, 3, 7})
                 CHECK(differing(all, baked(view, directions, usual, threads{count})) == 0);
-            CHECK(differing(all, baked(view, directions, usual, backwards{})) == 0);
-            CHECK(differing(all, baked(view, directions, usual, unruly{})) == 0);
+            CHECK(differing(all, baked(view, directions, usual, executors::backwards{})) == 0);
+            CHECK(differing(all, baked(view, directions, usual, executors::unruly{})) == 0);
             const std::size_t slice = required_size(extent, 1);
             for (std::size_t i = 0; i < directions.size(); i += 3) {
                 const slopes alone = baked(view, {directions[i]}, usual, threads{int(i % 5) + 1});

@@ -13,6 +13,8 @@
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/horizon/exact.hpp>
 
+#include "support/executors.hpp"
+
 using namespace bumpshadow;
 
 namespace {
@@ -399,19 +401,6 @@ TEST_CASE("a shifted tiling map shifts its horizons") {
     }
 }
 
-namespace {
-
-// Says that it runs one item at a time and runs eight, last ones first.
-struct unruly {
-    [[nodiscard]] int concurrency() const { return 1; }
-    template <class Body>
-    void operator()(std::size_t count, Body&& body) const {
-        threads{8}(count, [&](std::size_t i) { body(count - 1 - i); });
-    }
-};
-
-}  // namespace
-
 TEST_CASE("the result does not depend on the executor, the region or the number of directions, bit for bit") {
     const std::vector<glm::dvec2> directions = some_directions();
     for (const bool improved : {false, true})
@@ -424,7 +413,7 @@ TEST_CASE("the result does not depend on the executor, the region or the number 
             const slopes all = bake(improved, map.view(), directions);
             CHECK(all == bake(improved, map.view(), directions, {}, threads{2}));
             CHECK(all == bake(improved, map.view(), directions, {}, threads{5}));
-            CHECK(all == bake(improved, map.view(), directions, {}, unruly{}));
+            CHECK(all == bake(improved, map.view(), directions, {}, executors::unruly{}));
             CHECK(slopes(all.begin() + 9 * 70 * 41, all.begin() + 10 * 70 * 41) ==
                   bake(improved, map.view(), std::span(directions).subspan(9, 1), {}, threads{3}));
             for (const rectangle region :

@@ -77,24 +77,6 @@ struct limits {
 // Along axes and diagonals, between them, almost along an axis; never zero. Whole numbers alone: those of small ones.
 [[nodiscard]] rc::Gen<list> any_directions(std::size_t count, bool whole_numbers = false);
 
-// Runs the last item first.
-struct backwards {
-    [[nodiscard]] int concurrency() const { return 1; }
-    template <class Body>
-    void operator()(std::size_t count, Body&& body) const {
-        for (std::size_t i = count; i-- > 0;) body(i);
-    }
-};
-
-// Says that it runs one item at a time and runs seven, last ones first.
-struct unruly {
-    [[nodiscard]] int concurrency() const { return 1; }
-    template <class Body>
-    void operator()(std::size_t count, Body&& body) const {
-        bumpshadow::threads{7}(count, [&](std::size_t i) { body(count - 1 - i); });
-    }
-};
-
 // Fills what it hands out with bytes of `value`: 0xff makes floats and doubles NaN.
 class filling : public std::pmr::memory_resource {
 public:

@@ -6,6 +6,7 @@
 #include <bumpshadow/executor.hpp>
 
 #include "properties/maps.hpp"
+#include "support/executors.hpp"
 
 namespace properties {
 namespace {
@@ -130,8 +131,8 @@ bool executors() {
                                                 expected) == 0u);
                             RC_ASSERT(differing(far_again, far) == 0u);
                         };
-                        check(backwards{});
-                        check(unruly{});
+                        check(executors::backwards{});
+                        check(executors::unruly{});
                         check(bs::threads{*rc::gen::element(2, 3, 16)});
                     }) &&
               all;

@@ -134,6 +134,14 @@ std::vector<stiff_case> scales() {
                            return map;
                        }});
     }
+    // Below the least normal float: with denormals flushed all of it is flat, and 10^-39 degrees off.
+    all.push_back({"samples in 10^-40", [] { return made([](int x, int y) { return 1e-40 * waves(x, y); }); }});
+    all.push_back({"samples and texels in 10^-40, in double", [] {
+                       stiff_map map = in_double(made([](int x, int y) { return 1e-40 * waves(x, y); }));
+                       map.texel_size = {1e-40, 1e-40};
+                       return map;
+                   }});
+    all.push_back(plain("hills on a plain of 10^-41", [](int x, int y) { return std::max(waves(x, y), 1e-41); }));
     all.push_back({"height scale 0", [] { return scaled(made(waves), 0.0); }});
     all.push_back({"height scale -1", [] { return scaled(made(waves), -1.0); }});
     all.push_back({"texels 1 : 1000", [] { return in_units(made(waves), 1.0, {1.0, 1000.0}); }});

@@ -138,7 +138,10 @@ template <bool improved, height_sample Sample, class Executor>
     for (int i = 0; i < slot_pool::slots(concurrency, std::size_t(-1)); ++i) slots[i].arrays(side, heights.edge, carve);
 
     map.rows += margin<improved>;
-    map.gaps = fill(map, heights, margin<improved>) || heights.edge == edge_mode::open;
+    // In units of the longer side of a texel nothing is too small or too large for floats but what slopes make.
+    const double length = (std::max)(heights.texel_size.x, heights.texel_size.y);
+    const glm::dvec2 texel_size = heights.texel_size / length;
+    map.gaps = fill(map, heights, length, margin<improved>) || heights.edge == edge_mode::open;
     map.floor = heights.edge == edge_mode::open ? minus_infinity : 0.0f;
 
     const rectangle region = region_or_all(options.region, heights.extent);
@@ -148,10 +151,9 @@ template <bool improved, height_sample Sample, class Executor>
             const std::size_t i = item / bands;
             const int begin = int(item % bands) * rows_per_item,
                       end = (std::min)(begin + rows_per_item, region.extent.y);
-            const slanted way = resolve(directions[i], heights.texel_size);
+            const slanted way = resolve(directions[i], texel_size);
             const auto bake_rows = map.gaps ? bake_near<true> : bake_near<false>;
-            bake_rows(map, heights.texel_size, way, directions[i], region, begin, end, out.row(int(i), 0),
-                      out.row_step());
+            bake_rows(map, texel_size, way, directions[i], region, begin, end, out.row(int(i), 0), out.row_step());
         });
     }
     // A few items for each thread, so that none waits long for the last.
@@ -160,7 +162,7 @@ template <bool improved, height_sample Sample, class Executor>
         const std::size_t i = item / groups, group = item % groups;
         const slot_pool::lease slot = pool.acquire();
         lines& l = slots[slot.index()];
-        l.prepare(map, resolve(directions[i], heights.texel_size), region, out.row_step());
+        l.prepare(map, resolve(directions[i], texel_size), region, out.row_step());
         const std::size_t blocks = std::size_t((l.count + lines_per_block - 1) / lines_per_block);
         const int begin = int(blocks * group / groups), end = int(blocks * (group + 1) / groups);
         if (begin == end) return;

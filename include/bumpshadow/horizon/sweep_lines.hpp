@@ -113,7 +113,8 @@ inline constexpr vertex hull_bottom{std::numeric_limits<float>::lowest(), minus_
     return top;
 }
 
-// Heights above the reference as floats, holes as NaN, row by row with a margin on both sides; and column by column.
+// Heights above the reference, in units of length, as floats, holes as NaN, row by row with a margin on both sides; and
+// column by column.
 struct planes {
     float* rows;
     std::ptrdiff_t row_stride;
@@ -126,9 +127,9 @@ struct planes {
 };
 
 template <height_sample Sample>
-[[nodiscard]] inline bool fill(const planes& to, const height_map<Sample>& heights, int margin) {
+[[nodiscard]] inline bool fill(const planes& to, const height_map<Sample>& heights, double length, int margin) {
     constexpr float hole = std::numeric_limits<float>::quiet_NaN();
-    const double unit = unit_height(heights), reference = reference_sample(heights);
+    const double unit = unit_height(heights) / length, reference = reference_sample(heights);
     bool holes = false;
     for (int y = 0; y < to.extent.y; ++y) {
         float* const row = to.rows + y * to.row_stride;
