@@ -7,8 +7,6 @@
 #include <variant>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include <bumpshadow/encode/emboss.hpp>
 #include <bumpshadow/encode/fourier.hpp>
 #include <bumpshadow/encode/sine_layers.hpp>
@@ -19,6 +17,11 @@
 
 #include "common/heights.hpp"
 #include "common/method.hpp"
+
+// Declared alone: CLI11 takes seconds to compile.
+namespace CLI {
+class App;
+}
 
 namespace examples {
 

@@ -2,8 +2,9 @@
 
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include <CLI/CLI.hpp>
 #include <glm/ext/vector_double2.hpp>
 
 #include <bumpshadow/horizon_map.hpp>
@@ -11,9 +12,21 @@
 #include "common/heights.hpp"
 #include "common/progress.hpp"
 
+// Declared alone: CLI11 takes seconds to compile.
+namespace CLI {
+class App;
+}
+
 namespace examples {
 
 enum class method { exact, cascade, sweep, sweep_classic, neighborhood };
+
+// The words of the command line.
+inline const std::vector<std::pair<std::string, method>> method_names{{"cascade", method::cascade},
+                                                                      {"exact", method::exact},
+                                                                      {"sweep", method::sweep},
+                                                                      {"sweep-classic", method::sweep_classic},
+                                                                      {"neighborhood", method::neighborhood}};
 
 // How a program finds horizons.
 struct horizon_settings {

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <filesystem>
 #include <limits>
-#include <set>
 #include <span>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include <bumpshadow/encode/reduce.hpp>
@@ -67,54 +64,7 @@ std::vector<recipe_horizons> with_mips(recipe_horizons all, const bs::recipe& r,
     return levels;
 }
 
-bool same_file(const std::string& a, const std::string& b) {
-    std::error_code ignored;
-    return std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal() ||
-           std::filesystem::equivalent(a, b, ignored);
-}
-
 }  // namespace
-
-void add_recipe_options(CLI::App& app, recipe_settings& settings) {
-    app.footer(scene_help);
-    CLI::Option* const plan =
-        app.add_option("--plan", settings.plan,
-                       "plans the cheapest set-up that this scene needs (below) and uses it: decides all that says how "
-                       "horizons are baked and stored")
-            ->type_name("SCENE.json");
-    app.add_option("--recipe", settings.recipe, "uses a set-up that was planned before")
-        ->type_name("FILE.json")
-        ->excludes(plan);
-    app.add_option("--save-recipe", settings.save, "with --plan or --recipe: writes the set-up for --recipe")
-        ->type_name("FILE.json");
-}
-
-void check_recipe_options(const CLI::App& app, const recipe_settings& settings, const std::string& heights,
-                          const std::string& output, std::initializer_list<const char*> kept) {
-    if (!settings.given()) {
-        if (!settings.save.empty())
-            throw failure("--save-recipe " + settings.save + " is given, but neither --plan nor --recipe");
-        return;
-    }
-    const bool plan = !settings.plan.empty();
-    std::set<std::string> fine{"HEIGHTS", "--output",  "--height-scale", "--texel-size", "--edge",   "--channel",
-                               "--raw",   "--no-data", "--threads",      "--plan",       "--recipe", "--save-recipe"};
-    fine.insert(kept.begin(), kept.end());
-    for (const CLI::Option* option : app.get_options()) {
-        if (option->count() == 0 || fine.contains(option->get_name())) continue;
-        std::string given = option->get_name();
-        if (option->get_expected_max() > 0)
-            for (const std::string& word : option->results()) given += " " + word;
-        throw failure(given + " does not go with " + (plan ? "--plan" : "--recipe") +
-                      ", which decides how horizons are baked and stored");
-    }
-    if (settings.save.empty()) return;
-    for (const std::string& input : {heights, settings.plan, settings.recipe})
-        if (!input.empty() && same_file(input, settings.save))
-            throw failure("cannot write " + settings.save + ": it is read from");
-    if (same_file(output, settings.save))
-        throw failure("cannot write " + settings.save + ": it is what --output names");
-}
 
 bs::recipe plan_for(const height_samples& samples, const height_source& source, const bs::scene& wanted) {
     bs::recipe r;

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <glm/ext/vector_double2.hpp>
 #include <glm/ext/vector_int2.hpp>
 
@@ -14,6 +13,11 @@
 #include "common/encoding.hpp"
 #include "common/heights.hpp"
 #include "common/plan_json.hpp"
+
+// Declared alone: CLI11 takes seconds to compile.
+namespace CLI {
+class App;
+}
 
 namespace examples {
 

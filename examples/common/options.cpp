@@ -1,15 +1,54 @@
-#include "common/encoding.hpp"
+// The options of horizons, encodings and recipes: in one file, since CLI11 takes seconds to compile.
 
+#include <filesystem>
+#include <initializer_list>
+#include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "common/arguments.hpp"
 #include "common/choices.hpp"
+#include "common/encoding.hpp"
+#include "common/file.hpp"
+#include "common/method.hpp"
+#include "common/plan_json.hpp"
+#include "common/recipe.hpp"
 
 namespace examples {
 
+namespace {
+
 namespace bs = bumpshadow;
+
+bool same_file(const std::string& a, const std::string& b) {
+    std::error_code ignored;
+    return std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal() ||
+           std::filesystem::equivalent(a, b, ignored);
+}
+
+}  // namespace
+
+void add_horizon_options(CLI::App& app, horizon_settings& settings) {
+    add_choice(app, "--method", settings.how, method_names, "how horizons are found")->type_name("METHOD");
+    app.add_option("--steps", settings.options.steps, "cascade: texels of a level that it looks at; more is finer")
+        ->check(whole_number(1, 1 << 20))
+        ->capture_default_str()
+        ->type_name("K");
+    app.add_option("--radius", settings.options.radius,
+                   "occluders farther than this are left out, in the unit of --texel-size (default: none are)")
+        ->check(positive_or_infinite_number())
+        ->type_name("R");
+    app.add_option_function<std::pair<double, double>>(
+           "--curvature",
+           [&settings](const auto& curvature) {
+               settings.options.curvature = {curvature.first, curvature.second};
+           },
+           "curvature of the base surface along x and y, 1/unit (default 0 0)")
+        ->check(finite_number())
+        ->type_name("KX KY");
+}
 
 void add_encoding_options(CLI::App& app, encoding_settings& settings, bool extra) {
     std::vector<std::pair<std::string, encoding_kind>> kinds;
@@ -76,6 +115,47 @@ void add_encoding_options(CLI::App& app, encoding_settings& settings, bool extra
 std::string name_of(encoding_kind kind) {
     constexpr const char* names[] = {"tangent", "layers", "sine", "fourier", "ssbump", "emboss", "traced", "none"};
     return names[int(kind)];
+}
+
+void add_recipe_options(CLI::App& app, recipe_settings& settings) {
+    app.footer(scene_help);
+    CLI::Option* const plan =
+        app.add_option("--plan", settings.plan,
+                       "plans the cheapest set-up that this scene needs (below) and uses it: decides all that says how "
+                       "horizons are baked and stored")
+            ->type_name("SCENE.json");
+    app.add_option("--recipe", settings.recipe, "uses a set-up that was planned before")
+        ->type_name("FILE.json")
+        ->excludes(plan);
+    app.add_option("--save-recipe", settings.save, "with --plan or --recipe: writes the set-up for --recipe")
+        ->type_name("FILE.json");
+}
+
+void check_recipe_options(const CLI::App& app, const recipe_settings& settings, const std::string& heights,
+                          const std::string& output, std::initializer_list<const char*> kept) {
+    if (!settings.given()) {
+        if (!settings.save.empty())
+            throw failure("--save-recipe " + settings.save + " is given, but neither --plan nor --recipe");
+        return;
+    }
+    const bool plan = !settings.plan.empty();
+    std::set<std::string> fine{"HEIGHTS", "--output",  "--height-scale", "--texel-size", "--edge",   "--channel",
+                               "--raw",   "--no-data", "--threads",      "--plan",       "--recipe", "--save-recipe"};
+    fine.insert(kept.begin(), kept.end());
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->count() == 0 || fine.contains(option->get_name())) continue;
+        std::string given = option->get_name();
+        if (option->get_expected_max() > 0)
+            for (const std::string& word : option->results()) given += " " + word;
+        throw failure(given + " does not go with " + (plan ? "--plan" : "--recipe") +
+                      ", which decides how horizons are baked and stored");
+    }
+    if (settings.save.empty()) return;
+    for (const std::string& input : {heights, settings.plan, settings.recipe})
+        if (!input.empty() && same_file(input, settings.save))
+            throw failure("cannot write " + settings.save + ": it is read from");
+    if (same_file(output, settings.save))
+        throw failure("cannot write " + settings.save + ": it is what --output names");
 }
 
 }  // namespace examples
