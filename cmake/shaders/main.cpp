@@ -59,6 +59,7 @@ std::string table(const source& all) {
         "#pragma once\n\n"
         "// Generated from the .h files beside it by the target `shaders`: change those.\n// clang-format off\n\n"
         "#include <array>\n#include <cstdint>\n#include <string_view>\n\n"
+        "#include <bumpshadow/config.hpp>\n\n"
         "namespace bumpshadow::shader_text {\n\n"
         "// A function or structure; `needs` has a bit for each snippet that it uses, through others too, and its "
         "own.\n"

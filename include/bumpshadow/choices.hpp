@@ -1,6 +1,8 @@
 #pragma once
 
-// Settings that encoders, shaders and programs have in common. Needs nothing else.
+// Settings that encoders, shaders and programs have in common. Needs no GLM.
+
+#include <bumpshadow/config.hpp>
 
 namespace bumpshadow {
 

@@ -1,7 +1,24 @@
 #pragma once
 
-#if !defined(__cpp_concepts) || __cplusplus < 202002L && (!defined(_MSVC_LANG) || _MSVC_LANG < 202002L)
+// What a build needs, said before anything else can fail. GCC and Clang go on after an #error, with hundreds of lines
+// that bury it; a file that is not there stops them.
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ < 11
+#error "bumpshadow needs GCC 11 or newer: choose a newer compiler, with CMake by -DCMAKE_CXX_COMPILER=..."
+#include "the error above says what to do"
+#elif defined(__clang__) && !defined(__apple_build_version__) && __clang_major__ < 13
+#error "bumpshadow needs Clang 13 or newer: choose a newer compiler, with CMake by -DCMAKE_CXX_COMPILER=..."
+#include "the error above says what to do"
+#elif defined(_MSC_VER) && _MSC_VER < 1929
+#error "bumpshadow needs Visual Studio 2019 16.11 or newer"
+#elif !defined(__cpp_concepts) || __cplusplus < 202002L && (!defined(_MSVC_LANG) || _MSVC_LANG < 202002L)
 #error "bumpshadow needs C++20: compile with -std=c++20 or /std:c++20, or link the CMake target bumpshadow::bumpshadow"
+#include "the error above says what to do"
+#endif
+
+#include <version>
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 160000
+#error "bumpshadow needs libc++ 16 or newer (for <memory_resource>): choose a newer one, or -stdlib=libstdc++"
+#include "the error above says what to do"
 #endif
 
 // What a build of bumpshadow can choose. Define a macro before the first include, the same in every translation unit.

@@ -6,6 +6,8 @@
 #include <limits>
 #include <type_traits>
 
+#include <bumpshadow/config.hpp>
+
 // Questions about NaN and infinity that are answered from the bits of a number, so that a user's -ffast-math, under
 // which compilers take all numbers for finite, does not change the answer. In constant expressions, too. They take
 // references, since such a compiler may take what is passed by value for finite as well.

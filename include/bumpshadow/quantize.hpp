@@ -3,6 +3,8 @@
 #include <bit>
 #include <cstdint>
 
+#include <bumpshadow/config.hpp>
+
 namespace bumpshadow {
 
 // Numbers as textures store them, and back as a GPU reads them. Round to nearest; what lies outside the range is

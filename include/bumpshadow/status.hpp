@@ -5,6 +5,14 @@
 
 #include <glm/ext/vector_int2.hpp>
 
+#include <bumpshadow/config.hpp>
+
+// Alone, each is supported. Together they leave vectors that no constant expression can hold.
+#if defined(GLM_FORCE_CTOR_INIT) && GLM_CONFIG_SIMD == GLM_ENABLE
+#error "bumpshadow needs GLM without GLM_FORCE_CTOR_INIT where GLM uses SIMD: define one of the two"
+#include "the error above says what to do"
+#endif
+
 namespace bumpshadow {
 
 // Why a call could not be carried out.

@@ -5,6 +5,8 @@
 
 #include <glm/ext/vector_float4.hpp>
 
+#include <bumpshadow/config.hpp>
+
 namespace bumpshadow {
 
 // Color of a 16-bit texel, red in the high five bits; alpha is 1.

@@ -6,6 +6,8 @@
 
 #include <glm/ext/vector_int2.hpp>
 
+#include <bumpshadow/config.hpp>
+
 namespace bumpshadow::mean_detail {
 
 // Where a texel of a smaller level lies on the larger one, along an axis: the first texel, how many it touches, and the

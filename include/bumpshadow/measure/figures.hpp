@@ -7,6 +7,8 @@
 #include <memory_resource>
 #include <span>
 
+#include <bumpshadow/config.hpp>
+
 namespace bumpshadow {
 
 // Where a measurement takes its memory from: `scratch` if it is not empty, else the resource.

@@ -42,6 +42,7 @@ using glm::vec4;
 #include <bumpshadow/shader/ssbump.h>
 #include <bumpshadow/shader/tangent_volume.h>
 #include <bumpshadow/shader/vertex.h>
+#include <bumpshadow/config.hpp>
 
 #undef BUMPSHADOW_FUNCTION
 
