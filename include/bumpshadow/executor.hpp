@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <bumpshadow/config.hpp>
+
 namespace bumpshadow {
 
 // Who runs the independent items of a bake. The library starts no threads of its own accord: a producer calls
@@ -57,11 +59,16 @@ public:
         const auto work = [&] {
             for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) body(i);
         };
-        std::vector<std::jthread> helpers;
+        struct joined {  // by hand: std::jthread is missing in Clang's own library before 20
+            std::vector<std::thread> threads;
+            ~joined() {
+                for (std::thread& helper : threads) helper.join();
+            }
+        } helpers;
         const std::size_t wanted = count < std::size_t(count_) ? count : std::size_t(count_);
         const auto hire = [&] {
-            helpers.reserve(wanted);
-            for (std::size_t i = 1; i < wanted; ++i) helpers.emplace_back(work);
+            helpers.threads.reserve(wanted);
+            for (std::size_t i = 1; i < wanted; ++i) helpers.threads.emplace_back(work);
         };
 #if defined(__cpp_exceptions)
         try {

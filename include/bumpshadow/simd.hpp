@@ -78,13 +78,22 @@ inline pack multiply_add(pack a, pack b, pack c) { return a * b + c; }
 inline pack max(pack a, pack b) { return a > b ? a : b; }
 inline pack select_greater(pack a, pack b, pack yes, pack no) { return a > b ? yes : no; }
 
+template <int... Lane>
+inline pack shuffle(pack a, pack b) {
+#if defined(__clang__)
+    return __builtin_shufflevector(a, b, Lane...);
+#else  // GCC has that since 12 only
+    typedef std::int32_t lane_numbers __attribute__((vector_size(4 * width)));
+    return __builtin_shuffle(a, b, lane_numbers{Lane...});
+#endif
+}
 template <int First, int Step, int... Lane>
 inline pack pick(pack a, pack b, std::integer_sequence<int, Lane...>) {
-    return __builtin_shufflevector(a, b, (First + Lane * Step)...);
+    return shuffle<(First + Lane * Step)...>(a, b);
 }
 template <int First, int... Lane>
 inline pack alternate(pack a, pack b, std::integer_sequence<int, Lane...>) {
-    return __builtin_shufflevector(a, b, (First + Lane / 2 + (Lane % 2) * width)...);
+    return shuffle<(First + Lane / 2 + (Lane % 2) * width)...>(a, b);
 }
 using lanes = std::make_integer_sequence<int, width>;
 template <int Ahead = 1>
