@@ -37,7 +37,7 @@ inline constexpr int largest_factor_cube = 1024;
 
 [[nodiscard]] constexpr factor_cube factor_cube_as_published() { return {16, factor_form::published}; }
 
-[[nodiscard]] constexpr texture_layout layout_of(const factor_cube& cube) {
+[[nodiscard]] inline GLM_CONSTEXPR texture_layout layout_of(const factor_cube& cube) {
     return {.format = texel_format::rgba8, .kind = texture_kind::cube, .extent = glm::ivec2(cube.size), .layers = 6};
 }
 

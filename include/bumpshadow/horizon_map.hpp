@@ -121,7 +121,7 @@ template <height_sample Sample>
         if (options.curvature.x < least) return {error::out_of_range, "curvature.x", options.curvature.x, least};
         if (options.curvature.y < least) return {error::out_of_range, "curvature.y", options.curvature.y, least};
     }
-    for (const glm::dvec2 d : directions) {
+    for (const glm::dvec2& d : directions) {
         if (!is_finite(d.x) || !is_finite(d.y)) return {error::not_finite, "direction", is_finite(d.x) ? d.y : d.x};
         if (d.x == 0.0 && d.y == 0.0) return {error::not_positive, "length of a direction", 0.0};
         const glm::dvec2 scaled =

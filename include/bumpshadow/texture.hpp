@@ -64,18 +64,18 @@ struct texture_layout {
     int layers = 1;        // of an array; 6 for a cube
     int mips = 1;
 
-    [[nodiscard]] constexpr glm::ivec2 level_extent(int level) const {
+    [[nodiscard]] GLM_CONSTEXPR glm::ivec2 level_extent(int level) const {
         return {mip_extent(extent.x, level), mip_extent(extent.y, level)};
     }
     [[nodiscard]] constexpr int level_depth(int level) const { return mip_extent(depth, level); }
     // Bytes from one row of blocks to the next.
     [[nodiscard]] constexpr std::size_t row_bytes(int level) const {
         const format_traits f = traits_of(format);
-        return std::size_t((level_extent(level).x + f.block - 1) / f.block) * std::size_t(f.block_bytes);
+        return std::size_t((mip_extent(extent.x, level) + f.block - 1) / f.block) * std::size_t(f.block_bytes);
     }
     [[nodiscard]] constexpr std::size_t slice_bytes(int level) const {
         const int block = traits_of(format).block;
-        return row_bytes(level) * std::size_t((level_extent(level).y + block - 1) / block);
+        return row_bytes(level) * std::size_t((mip_extent(extent.y, level) + block - 1) / block);
     }
     [[nodiscard]] constexpr std::size_t layer_bytes() const {
         std::size_t bytes = 0;

@@ -40,7 +40,7 @@ using fourier_terms = std::array<double, most_coefficients>;
     if (m < n) return {error::too_small, "directions", double(m), double(n)};
     // Normal matrix, by its Cholesky factor below the diagonal.
     std::array<fourier_terms, most_coefficients> normal{};
-    for (const glm::dvec2 direction : directions) {
+    for (const glm::dvec2& direction : directions) {
         const fourier_terms terms = terms_of(direction);
         for (std::size_t i = 0; i < n; ++i)
             for (std::size_t j = 0; j <= i; ++j) normal[i][j] += terms[i] * terms[j] / double(m);

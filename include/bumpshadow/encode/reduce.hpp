@@ -22,7 +22,7 @@
 namespace bumpshadow {
 
 // Extent at 1 / factor; what is left over of an odd extent is spread over all texels.
-[[nodiscard]] constexpr glm::ivec2 reduced_extent(glm::ivec2 extent, int factor) {
+[[nodiscard]] inline GLM_CONSTEXPR glm::ivec2 reduced_extent(glm::ivec2 extent, int factor) {
     return {(std::max)(1, extent.x / factor), (std::max)(1, extent.y / factor)};
 }
 

@@ -48,7 +48,7 @@ namespace bumpshadow {
     if (status s = check_horizons(slopes); !s) return s;
     if (directions.size() != std::size_t(slopes.bearings))
         return {error::mismatch, "directions", double(directions.size()), double(slopes.bearings)};
-    for (const glm::dvec2 d : directions) {
+    for (const glm::dvec2& d : directions) {
         if (!is_finite(d.x) || !is_finite(d.y)) return {error::not_finite, "direction", is_finite(d.x) ? d.y : d.x};
         if (d.x == 0.0 && d.y == 0.0) return {error::not_positive, "length of a direction", 0.0};
     }

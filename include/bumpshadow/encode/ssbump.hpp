@@ -61,7 +61,7 @@ struct ssbump {
 
 // The basis of the masks, red, green, blue, in tangent space with the y of the map. Orthonormal; each vector is
 // 54.74 degrees from +z.
-inline constexpr std::array<glm::dvec3, 3> ssbump_basis = {
+inline GLM_CONSTEXPR const std::array<glm::dvec3, 3> ssbump_basis = {
     glm::dvec3(0.81649658092772603, 0.0, 0.57735026918962576),
     glm::dvec3(-0.40824829046386302, 0.70710678118654752, 0.57735026918962576),
     glm::dvec3(-0.40824829046386302, -0.70710678118654752, 0.57735026918962576)};

@@ -271,7 +271,7 @@ struct memory_line {
 // The table of his section 5, computed: what horizons cost beside the other textures of a surface. (512, 512) gives
 // the published numbers; the last four lines are a horizon map of 16 slices at full, half and quarter extent, and of 8
 // at a quarter.
-[[nodiscard]] constexpr std::array<memory_line, 8> memory_table(glm::ivec2 extent) {
+[[nodiscard]] inline GLM_CONSTEXPR std::array<memory_line, 8> memory_table(glm::ivec2 extent) {
     const auto line = [](const char* type, const char* format, glm::ivec2 texels, int slices, double bits) {
         return memory_line{type, format, texels, slices, texture_kbytes(texels, slices, bits)};
     };

@@ -98,7 +98,7 @@ template <height_sample Sample, executor Executor = serial>
 
     const bool holes = heights.no_data.has_value() || heights.edge == edge_mode::open;
     bool wanted[2] = {};
-    for (const glm::dvec2 d : directions) wanted[head(d, both[0].spacing).transposed ? 1 : 0] = true;
+    for (const glm::dvec2& d : directions) wanted[head(d, both[0].spacing).transposed ? 1 : 0] = true;
     std::array<pyramid_scratch, 2> building;
     for (std::size_t i = 0; i < 2; ++i) building[i] = carve_pyramid(both[i], block);
     const height_range range = fill_ground(heights, both[0], execute);

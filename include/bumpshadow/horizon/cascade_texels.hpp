@@ -33,8 +33,8 @@ struct job {
     rectangle region;
 };
 
-[[nodiscard]] constexpr glm::ivec2 swapped(glm::ivec2 v) { return {v.y, v.x}; }
-[[nodiscard]] constexpr glm::dvec2 swapped(glm::dvec2 v) { return {v.y, v.x}; }
+[[nodiscard]] inline glm::ivec2 swapped(glm::ivec2 v) { return {v.y, v.x}; }
+[[nodiscard]] inline glm::dvec2 swapped(glm::dvec2 v) { return {v.y, v.x}; }
 
 // How far the levels look. Distances count from the texel, in units of length.
 struct reach {

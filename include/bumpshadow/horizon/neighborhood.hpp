@@ -207,7 +207,7 @@ template <height_sample Sample, executor Executor = serial>
         table.taps[next[std::size_t(n)]++] = {y * table.stride + x, float(1.0 / (distance * distance))};
     });
     constexpr int side = neighborhood_average / 2;
-    for (const glm::dvec2 d : directions)
+    for (const glm::dvec2& d : directions)
         for (int n = nearest(d) - side; n <= nearest(d) + side; ++n)
             table.needed[std::size_t(n & (neighborhood_directions - 1))] = true;
 

@@ -72,7 +72,7 @@ struct mismatch_counts {
     if (lights.elevations.empty()) return {error::missing, "lights.elevations"};
     if (lights.elevations.size() > most_elevations)
         return {error::out_of_range, "lights.elevations", double(lights.elevations.size()), double(most_elevations)};
-    for (const glm::dvec2 d : lights.directions) {
+    for (const glm::dvec2& d : lights.directions) {
         const double length = std::hypot(d.x, d.y);
         if (!std::isfinite(length)) return {error::not_finite, "length of a light's direction", length};
         if (!(length > 0.0)) return {error::not_positive, "length of a light's direction", length};

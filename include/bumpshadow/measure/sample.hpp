@@ -44,7 +44,7 @@ private:
 
 [[nodiscard]] inline status check_texels(std::span<const glm::ivec2> texels, glm::ivec2 extent) {
     if (texels.empty()) return {error::missing, "texels"};
-    for (const glm::ivec2 t : texels) {
+    for (const glm::ivec2& t : texels) {
         if (t.x < 0 || t.x >= extent.x) return {error::out_of_range, "texels x", double(t.x), double(extent.x - 1), t};
         if (t.y < 0 || t.y >= extent.y) return {error::out_of_range, "texels y", double(t.y), double(extent.y - 1), t};
     }

@@ -38,7 +38,7 @@ inline constexpr double least_arc = 1e-5;  // turns: 0.0036 degrees
         // The widest gap between neighboring bearings is what the arc leaves out. A light straight up has no bearing.
         double widest = 0.0;
         int sides = 0;
-        for (const glm::dvec3 v : s.lights) {
+        for (const glm::dvec3& v : s.lights) {
             const double flat = std::hypot(v.x, v.y), slope = flat > 0.0 ? v.z / flat : 1e9;
             r.lowest_slope = (std::min)(r.lowest_slope, slope);
             r.highest_slope = (std::max)(r.highest_slope, slope);
@@ -46,7 +46,7 @@ inline constexpr double least_arc = 1e-5;  // turns: 0.0036 degrees
             ++sides;
             const double at = exact_bearing(glm::dvec2(v));
             double gap = 1.0;  // to the next bearing
-            for (const glm::dvec3 w : s.lights) {
+            for (const glm::dvec3& w : s.lights) {
                 if (!(std::hypot(w.x, w.y) > 0.0)) continue;
                 const double way = exact_bearing(glm::dvec2(w)) - at;
                 const double turns = way - std::floor(way);

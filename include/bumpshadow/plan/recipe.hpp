@@ -94,7 +94,7 @@ struct recipe {
 };
 
 // Extent that horizons are baked at.
-[[nodiscard]] constexpr glm::ivec2 baked_extent(const recipe& r, glm::ivec2 extent) {
+[[nodiscard]] inline GLM_CONSTEXPR glm::ivec2 baked_extent(const recipe& r, glm::ivec2 extent) {
     return reduced_extent(extent, r.reduced_heights);
 }
 // Layout of the texture.

@@ -49,12 +49,12 @@ struct scene {
     const auto positive = [](const char* name, double value) {
         return value > 0.0 ? status{} : status{error::not_positive, name, value};
     };
-    for (const glm::dvec3 v : s.lights) {
+    for (const glm::dvec3& v : s.lights) {
         if (!is_finite(v.x) || !is_finite(v.y) || !is_finite(v.z)) return {error::not_finite, "scene.lights", v.z};
         if (!(v.z >= 0.0)) return {error::out_of_range, "scene.lights z (below the surface)", v.z, 0.0};
         if (v == glm::dvec3(0.0)) return {error::not_positive, "length of one of scene.lights", 0.0};
     }
-    for (const glm::dvec3 v : s.positions) {
+    for (const glm::dvec3& v : s.positions) {
         if (!is_finite(v.x) || !is_finite(v.y) || !is_finite(v.z)) return {error::not_finite, "scene.positions", v.z};
         if (!(v.z > 0.0)) return {error::not_positive, "scene.positions z", v.z};
     }

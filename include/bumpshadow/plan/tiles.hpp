@@ -16,7 +16,9 @@
 namespace bumpshadow {
 
 // Tiles along each axis; the last ones may be narrower.
-[[nodiscard]] constexpr glm::ivec2 tile_count(glm::ivec2 extent, int side) { return (extent + side - 1) / side; }
+[[nodiscard]] inline GLM_CONSTEXPR glm::ivec2 tile_count(glm::ivec2 extent, int side) {
+    return (extent + side - 1) / side;
+}
 
 // The steepest horizon of every tile, over all bearings of the map, as slopes [y][x]; no_horizon where all are holes.
 // A light whose slope is above it is never blocked in the tile. A border of one texel around a tile counts as well,

@@ -22,6 +22,8 @@
 
 namespace bumpshadow {
 
+static_assert(sizeof(glm::ivec4) == 16, "tables are uploaded as they are");
+
 // Texels along an axis, at the most.
 inline constexpr int most_bake_texels = 16384;
 

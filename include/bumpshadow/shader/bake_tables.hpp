@@ -30,7 +30,7 @@ struct bake_dispatch {
 };
 
 // Threads of a group along x and y.
-inline constexpr glm::ivec2 bake_group{16, 4};
+inline GLM_CONSTEXPR const glm::ivec2 bake_group{16, 4};
 namespace cascade_detail {
 
 // Fills tables, or counts their entries where there is no room.
@@ -78,7 +78,7 @@ public:
     [[nodiscard]] bool operator()(const height_map<float>& heights, std::span<const glm::dvec2> directions, bool holes,
                                   slot& s) {
         bool wanted[2] = {};
-        for (const glm::dvec2 d : directions) wanted[head(d, j_.both[0].spacing).transposed ? 1 : 0] = true;
+        for (const glm::dvec2& d : directions) wanted[head(d, j_.both[0].spacing).transposed ? 1 : 0] = true;
         const int frame_count = int(wanted[0]) + int(wanted[1]);
         const auto frame = [&](int i) { return frame_count == 2 ? i : int(wanted[1]); };
         for (int i = 0; i < frame_count; ++i) place_planes(frame(i));
