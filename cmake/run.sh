@@ -69,6 +69,13 @@ look_for_shader_tools() {
     has_header GL/glcorearb.h || others="$others libgl-dev"
 }
 
+# What the roads to the library need. Tests that need it are skipped where it is missing.
+look_for_consumer_tools() {
+    has_tool git || others="$others git"
+    has_tool pkg-config || others="$others pkg-config"
+    has_tool python3 || others="$others python3"
+}
+
 # What only looks for mistakes.
 look_for_check_tools() {
     has_tool run-clang-tidy || others="$others clang-tidy"
@@ -76,8 +83,8 @@ look_for_check_tools() {
     has_tool valgrind || others="$others valgrind"
 }
 
-# Installs what the arguments (clang, xsimd, shaders, properties, measure, plots, costs) and every build need and do
-# not have.
+# Installs what the arguments (clang, xsimd, shaders, properties, consumers, checks, measure, plots, costs) and every
+# build need and do not have.
 set_up() {
     tools='' headers='' others=''
     has_tool "${CXX:-c++}" || look_for_tool g++ g++
@@ -92,6 +99,7 @@ set_up() {
         case $extra in
             clang) look_for_tool clang++ clang ;;
             checks) look_for_check_tools ;;
+            consumers) look_for_consumer_tools ;;
             xsimd) look_for_header xsimd/xsimd.hpp libxsimd-dev ;;
             shaders) look_for_shader_tools ;;
             measure) has_tool astcenc || others="$others astcenc" ;;
@@ -278,17 +286,18 @@ case $command in
         run_into report "$@"
         ;;
     test | sanitize)
-        if [ "${CXX-}" = clang++ ]; then set_up clang shaders properties; else set_up shaders properties; fi
+        [ "${CXX-}" != clang++ ] || set_up clang
+        set_up shaders properties consumers
         workflow "$command"
         note_maps
         ;;
     clang)
-        set_up clang shaders properties
+        set_up clang shaders properties consumers
         workflow clang
         note_maps
         ;;
     full)
-        set_up clang xsimd shaders properties measure plots checks
+        set_up clang xsimd shaders properties consumers measure plots checks
         workflow test
         (cd "$root" && ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex slow)
         random_properties

@@ -1,0 +1,65 @@
+# What cannot work says so in one sentence, first and (with the stop that follows it) alone.
+include("${CMAKE_CURRENT_LIST_DIR}/tools.cmake")
+empty_folder("${WORK}")
+set(include "${SOURCE}/include")
+set(umbrella bumpshadow/bumpshadow.hpp)
+
+# refused(SENTENCE HEADER FLAG...): the compiler's first error.
+function(refused sentence header)
+    file(WRITE "${WORK}/main.cpp" "#include <${header}>\n")
+    run(${COMPILER} "-I${include}" ${glm_flags} -fsyntax-only ${ARGN} "${WORK}/main.cpp")
+    string(REGEX MATCHALL "error: [^\n]*" errors "${output}")
+    list(LENGTH errors count)
+    expect("${header} with ${ARGN}: \"${sentence}\"" count EQUAL 2)
+    list(GET errors 0 first)
+    string(FIND "${first}" "${sentence}" at)
+    expect("${header} with ${ARGN} says first: \"${sentence}\"" NOT at EQUAL -1)
+endfunction()
+
+# ---- A standard or a compiler that is too old ----
+
+set(headers ${umbrella} bumpshadow/status.hpp bumpshadow/executor.hpp bumpshadow/encode/bc1.hpp
+    bumpshadow/shader/shader.hpp bumpshadow/shader/snippets.hpp)
+if(THOROUGH)
+    file(GLOB_RECURSE headers RELATIVE "${include}" "${include}/*.hpp")
+    list(REMOVE_ITEM headers bumpshadow/version.hpp)  # three macros, for everyone
+    list(REMOVE_ITEM headers bumpshadow/encode/stb_blocks.hpp)  # which needs stb
+endif()
+foreach(header IN LISTS headers)
+    refused("bumpshadow needs C++20: compile with -std=c++20 or /std:c++20" ${header} -std=c++17)
+endforeach()
+# What a compiler that is not here would say, and its version as its number.
+file(WRITE "${WORK}/version.cpp" "__clang_major__\n")
+run_well("the compiler's number" ${COMPILER} -E -P "${WORK}/version.cpp")
+if(output MATCHES "__clang_major__")
+    refused("bumpshadow needs GCC 11 or newer" ${umbrella} -std=c++20 -U__GNUC__ -D__GNUC__=10)
+else()
+    refused("bumpshadow needs Clang 13 or newer" ${umbrella} -std=c++20 -U__clang_major__ -D__clang_major__=12)
+endif()
+refused("bumpshadow needs GLM without GLM_FORCE_CTOR_INIT where GLM uses SIMD" ${umbrella}
+    -std=c++20 -DGLM_FORCE_CTOR_INIT -DGLM_FORCE_INTRINSICS)
+
+# ---- CMake ----
+
+# cmake_refuses(WHAT SENTENCE ARGUMENT...)
+function(cmake_refuses what sentence)
+    empty_folder("${WORK}/build")
+    run(${CMAKE_COMMAND} -B "${WORK}/build" ${build_arguments} -DBUMPSHADOW_BUILD_EXAMPLES=OFF ${ARGN})
+    string(REGEX REPLACE "[ \n]+" " " output "${output}")
+    string(FIND "${output}" "${sentence}" at)
+    expect("${what}: \"${sentence}\"" NOT code EQUAL 0 AND NOT at EQUAL -1)
+endfunction()
+
+cmake_refuses("no GLM" "bumpshadow needs GLM 0.9.9.8 or newer: install it (Debian, Ubuntu: libglm-dev"
+    -S "${SOURCE}" -DCMAKE_DISABLE_FIND_PACKAGE_glm=ON)
+cmake_refuses("an unknown choice" "BUMPSHADOW_SIMD is \"fast\" but has to be none, vector, xsimd or empty"
+    -S "${SOURCE}" -DBUMPSHADOW_SIMD=fast -DBUMPSHADOW_BUILD_TESTS=OFF)
+cmake_refuses("no doctest" "The tests need doctest: install it" -S "${SOURCE}" -DCMAKE_DISABLE_FIND_PACKAGE_doctest=ON)
+# CMake's own sentence; no newer CMake than any is here, so that one is asked for.
+file(READ "${SOURCE}/CMakeLists.txt" text)
+string(REGEX REPLACE "^cmake_minimum_required\\(VERSION 3\\.20\\.\\.\\." "cmake_minimum_required(VERSION 99.0..." newer
+    "${text}")
+expect("the project asks for CMake 3.20 in its first line" NOT newer STREQUAL text)
+string(REGEX REPLACE "\\.\\.\\.3\\.31\\)" ")" newer "${newer}")
+file(WRITE "${WORK}/newer/CMakeLists.txt" "${newer}")
+cmake_refuses("an old CMake" "CMake 99.0 or higher is required. You are running version" -S "${WORK}/newer")

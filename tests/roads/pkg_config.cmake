@@ -1,0 +1,27 @@
+# The part of consumer.cmake for pkg-config, in a folder that the package was moved to; sets `printed`.
+set(moved "${WORK}/moved")
+file(COPY "${PREFIX}/" DESTINATION "${moved}")
+set(ENV{PKG_CONFIG_PATH} "${moved}/share/pkgconfig:$ENV{PKG_CONFIG_PATH}")
+
+run_well("pkg-config --validate" ${PKG_CONFIG} --validate bumpshadow)
+expect("the file is valid" NOT output)
+run_well("pkg-config --modversion" ${PKG_CONFIG} --modversion bumpshadow)
+expect("the version" output STREQUAL "${VERSION}\n")
+run_well("pkg-config --exists" ${PKG_CONFIG} --exists "bumpshadow >= 0.1" "bumpshadow < 0.2")
+run(${PKG_CONFIG} --exists "bumpshadow >= 99")
+expect("99 is not there" NOT code EQUAL 0)
+run_well("pkg-config --print-requires" ${PKG_CONFIG} --print-requires bumpshadow)
+expect("GLM is asked for" output STREQUAL "glm\n")
+
+run_well("pkg-config --cflags --libs" ${PKG_CONFIG} --cflags --libs bumpshadow)
+string(STRIP "${output}" flags)
+separate_arguments(flags UNIX_COMMAND "${flags}")
+list(GET flags 0 include)
+string(REGEX REPLACE "^-I" "" include "${include}")
+get_filename_component(include "${include}" ABSOLUTE)
+expect("headers are taken from where the package was moved to" include STREQUAL "${moved}/include")
+expect("threads are asked for" "-pthread" IN_LIST flags)
+run_well("compiling with pkg-config's flags" ${COMPILER} -std=c++20 "${SOURCE}/tests/consumer/main.cpp" ${flags}
+    -o "${WORK}/program")
+run_well("the consumer" "${WORK}/program")
+set(printed "${output}")
