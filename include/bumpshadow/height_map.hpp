@@ -68,7 +68,7 @@ template <height_sample Sample>
 template <height_sample Sample>
 [[nodiscard]] constexpr double unit_height(const height_map<Sample>& heights) {
     if constexpr (std::is_integral_v<Sample>)
-        return heights.height_scale / static_cast<double>(std::numeric_limits<Sample>::max());
+        return heights.height_scale / static_cast<double>((std::numeric_limits<Sample>::max)());
     else
         return heights.height_scale;
 }

@@ -6,7 +6,14 @@
 #include <bumpshadow/config.hpp>
 
 #if BUMPSHADOW_SIMD == BUMPSHADOW_SIMD_XSIMD
+// It does not compile where <windows.h> has defined these.
+#pragma push_macro("min")
+#pragma push_macro("max")
+#undef min
+#undef max
 #include <xsimd/xsimd.hpp>
+#pragma pop_macro("max")
+#pragma pop_macro("min")
 #endif
 #if BUMPSHADOW_SIMD == BUMPSHADOW_SIMD_VECTOR_EXTENSIONS && defined(__SSE__)
 #include <immintrin.h>
@@ -36,7 +43,7 @@ inline pack multiply_add(pack a, pack b, pack c) { return xsimd::fma(a, b, c); }
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
-inline pack max(pack a, pack b) { return xsimd::max(a, b); }
+inline pack larger(pack a, pack b) { return (xsimd::max)(a, b); }
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic pop
 #endif
@@ -75,7 +82,7 @@ inline pack splat(float a) { return splat(a, std::make_integer_sequence<int, wid
 inline pack subtract(pack a, pack b) { return a - b; }
 inline pack multiply(pack a, pack b) { return a * b; }
 inline pack multiply_add(pack a, pack b, pack c) { return a * b + c; }
-inline pack max(pack a, pack b) { return a > b ? a : b; }
+inline pack larger(pack a, pack b) { return a > b ? a : b; }
 inline pack select_greater(pack a, pack b, pack yes, pack no) { return a > b ? yes : no; }
 
 template <int... Lane>
@@ -136,7 +143,7 @@ inline pack multiply(const pack& a, const pack& b) {
 inline pack multiply_add(const pack& a, const pack& b, const pack& c) {
     return for_lanes([&](int i) { return a.lane[i] * b.lane[i] + c.lane[i]; });
 }
-inline pack max(const pack& a, const pack& b) {
+inline pack larger(const pack& a, const pack& b) {
     return for_lanes([&](int i) { return a.lane[i] > b.lane[i] ? a.lane[i] : b.lane[i]; });
 }
 inline pack select_greater(const pack& a, const pack& b, const pack& yes, const pack& no) {

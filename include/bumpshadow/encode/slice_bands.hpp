@@ -132,7 +132,7 @@ inline void convert(const horizon_scale& scale, const float* from, int count, fl
         const pack slope = load(slopes);
         const pack positive = select_greater(slope, zero, slope, zero);  // NaN becomes 0
         clamped = multiply_add(select_greater(positive, most, one, zero), one, clamped);
-        steepest = max(steepest, positive);
+        steepest = larger(steepest, positive);
         const pack value = multiply(select_greater(positive, most, most, positive), to_unit);
         store(stored, select_greater(value, ceiling, ceiling, value));
     };

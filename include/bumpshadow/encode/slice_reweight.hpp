@@ -67,7 +67,7 @@ struct sine_steps {
     [[nodiscard]] simd::pack operator()(simd::pack h) const {
         const simd::pack sine = simd::multiply(simd::splat(unit), h), one = simd::splat(1.0f);
         const simd::pack square = simd::subtract(one, simd::multiply(sine, sine));
-        return rough_root(simd::max(square, simd::splat(0.01f)));  // not 0 at 90 degrees
+        return rough_root(simd::larger(square, simd::splat(0.01f)));  // not 0 at 90 degrees
     }
 };
 struct angle_steps {

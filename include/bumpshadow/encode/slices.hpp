@@ -27,7 +27,7 @@ namespace bumpshadow {
 
 // Slope that a stored value stands for, at most max_slope and finite.
 [[nodiscard]] inline float slope_of_stored(const horizon_scale& scale, float value) {
-    if (value >= 1.0f) return (std::min)(scale.max_slope, std::numeric_limits<float>::max());
+    if (value >= 1.0f) return (std::min)(scale.max_slope, (std::numeric_limits<float>::max)());
     return slope_of_quantity(scale.stored, value / stored_scale(scale));
 }
 

@@ -33,8 +33,8 @@ inline void put(std::byte* to, std::uint16_t value) {
 [[nodiscard]] inline std::uint16_t half_of_unit(float value) {
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
     const std::uint32_t normal = (bits + 0xfffu + ((bits >> 13) & 1u) - 0x38000000u) >> 13;
-    const std::uint32_t small = std::bit_cast<std::uint32_t>(value + 0.5f) & 0xffffu;
-    return static_cast<std::uint16_t>(bits < 0x38800000u ? small : normal);
+    const std::uint32_t subnormal = std::bit_cast<std::uint32_t>(value + 0.5f) & 0xffffu;
+    return static_cast<std::uint16_t>(bits < 0x38800000u ? subnormal : normal);
 }
 
 }  // namespace stored_rows_detail

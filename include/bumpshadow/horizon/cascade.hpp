@@ -146,10 +146,10 @@ template <height_sample Sample>
     // Cells of the highest level that looks within the radius, half as high as they are; they take part in those next
     // to them.
     const glm::dvec2 radius = options.radius / heights.texel_size;
-    const int near = cascade_detail::near_rows(options.steps, false);
-    double reach = near, cell = 1.0;
+    const int ground_rows = cascade_detail::near_rows(options.steps, false);
+    double reach = ground_rows, cell = 1.0;
     for (int level = 1; reach < (std::max)(radius.x, radius.y); ++level) {
-        reach *= cascade_detail::growth(level, near, cascade_detail::is_narrow(options.steps));
+        reach *= cascade_detail::growth(level, ground_rows, cascade_detail::is_narrow(options.steps));
         cell *= 2.0;
     }
     const bool tiles = heights.edge == edge_mode::repeat || heights.edge == edge_mode::mirror;

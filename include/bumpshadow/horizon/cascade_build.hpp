@@ -51,7 +51,7 @@ inline void fill_halo(const ground& g, edge_mode edge) {
 }
 
 struct height_range {
-    float lowest = std::numeric_limits<float>::max();
+    float lowest = (std::numeric_limits<float>::max)();
     float highest = std::numeric_limits<float>::lowest();
 };
 
@@ -180,7 +180,7 @@ void halve(const plane& mean, const plane& top, glm::ivec2 ratio, const plane& t
                     simd::store(to_m + i, simd::multiply_add(d, quarter, sum));
                     const auto [e, f] = columns(t0, i);
                     const auto [g, h] = columns(t1, i);
-                    simd::store(to_t + i, simd::max(simd::max(e, f), simd::max(g, h)));
+                    simd::store(to_t + i, simd::larger(simd::larger(e, f), simd::larger(g, h)));
                 }
                 continue;
             }

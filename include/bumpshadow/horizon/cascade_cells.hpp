@@ -26,8 +26,8 @@ inline constexpr int batch = 8;        // rows of cells, which look at much the 
 
 // Where the work of an item lies; one for each item that runs at a time.
 struct slot {
-    looks near;
-    far_row* far = nullptr;
+    looks around;
+    far_row* beyond = nullptr;
     std::ptrdiff_t* lane_zero = nullptr;
     float* ring = nullptr;
     std::array<float*, 2> pair_values{};                               // of odd and of even levels
@@ -62,8 +62,8 @@ struct far_size {
     s.rows = cells.cells.y + 10;
     s.rows_a_cell = p.levels[std::size_t(level)].rows_a_cell();
     s.lean = p.base.x > p.base.y ? 4 : 2;
-    double rows = p.near * p.base.y / p.levels[std::size_t(level)].occluder_size();
-    for (int j = 1; j <= level; ++j) rows *= growth(j, p.near, p.narrow);
+    double rows = p.ground_rows * p.base.y / p.levels[std::size_t(level)].occluder_size();
+    for (int j = 1; j <= level; ++j) rows *= growth(j, p.ground_rows, p.narrow);
     rows += 4.0;
     s.window = (level == p.count - 1 ? most_rows : int((std::min)(rows, double(most_rows)))) + batch * s.rows_a_cell;
     return s;
@@ -76,11 +76,11 @@ using frames = std::array<pyramid, 2>;
 template <class Array>
 void for_arrays(const frames& both, slot& s, int steps, Array&& array) {
     const auto most = std::size_t(most_looks(steps));
-    array(s.near.corners, most);
-    array(s.near.crossings, most);
-    array(s.near.columns, most);
-    array(s.near.insides, most);
-    array(s.far, std::size_t(most_rows));
+    array(s.around.corners, most);
+    array(s.around.crossings, most);
+    array(s.around.columns, most);
+    array(s.around.insides, most);
+    array(s.beyond, std::size_t(most_rows));
     array(s.lane_zero, 2 * std::size_t(most_rows + 4 * batch));
     std::size_t ring = 0, line = 2 * strip, pair_values[2] = {};
     for (const pyramid& p : both)
@@ -161,7 +161,7 @@ public:
           s_(s),
           bring_(parents_of_cells(p, r, l_.width, to)),
           row_(found.at.first_row),
-          far_(choose_far_rows(p, j, r, from, to, s.far)),
+          far_(choose_far_rows(p, j, r, from, to, s.beyond)),
           count_(far_.count) {
         bring_.parent = parent;
         bring_.line = s.parent_line;
@@ -204,7 +204,7 @@ private:
     // Looks from a batch of rows, from some lanes of all of them at a time, so that the heights there stay cached.
     void look(int rows) {
         const lattice& at = found_.at;
-        std::int64_t lanes[batch], begin = std::numeric_limits<std::int64_t>::max(), end = -begin;
+        std::int64_t lanes[batch], begin = (std::numeric_limits<std::int64_t>::max)(), end = -begin;
         std::ptrdiff_t const* seen[batch] = {};
         if (count_ > 0) make_rows(row_ + rows - 1);
         for (int r = 0; r < rows; ++r) {
@@ -226,7 +226,7 @@ private:
                                    to = (std::min)(lane + chunk, lanes[r] + at.count);
                 if (from >= to) continue;
                 const std::size_t i = std::size_t(r) * s_.line_floats + std::size_t(from - lanes[r]);
-                look_far({s_.ring, seen[r], down_ ? 1 : -1, from}, s_.far, far_.first, count_,
+                look_far({s_.ring, seen[r], down_ ? 1 : -1, from}, s_.beyond, far_.first, count_,
                          int(to - from) / simd::width, s_.heights + i, s_.slopes + i, s_.inverses + i);
             }
     }

@@ -337,7 +337,7 @@ struct sampled_rows {
 // Looks from Packs packs of cells at rows of heights on the same lanes. heights: the cells' own; first: n of the first
 // row
 template <int Packs>
-inline void look_far_from(const sampled_rows& rows, const far_row* far, std::int64_t first, int count,
+inline void look_far_from(const sampled_rows& rows, const far_row* beyond, std::int64_t first, int count,
                           const float* heights, float* slopes, float* inverses) {
     using simd::pack;
     pack own[Packs], best[Packs], best_inverse[Packs];
@@ -350,22 +350,22 @@ inline void look_far_from(const sampled_rows& rows, const far_row* far, std::int
     const auto slope = [&](int i, int u) {
         // The difference first, so that all of a plateau makes the same slope: the nearest is taken, fused or not.
         const pack rise = simd::subtract(simd::load(rows.row(i) + u * simd::width), own[u]);
-        return simd::multiply_add(rise, simd::splat(far[i].inverse), simd::splat(far[i].bend));
+        return simd::multiply_add(rise, simd::splat(beyond[i].inverse), simd::splat(beyond[i].bend));
     };
     const auto look_in_groups = [&]<int Size>(std::int64_t before) {
         for (; n + Size <= count && first + n < before; n += Size) {
             pack highest[Packs];
             for (int u = 0; u < Packs; ++u) highest[u] = slope(n, u);
             for (int i = 1; i < Size; ++i)
-                for (int u = 0; u < Packs; ++u) highest[u] = simd::max(slope(n + i, u), highest[u]);
-            const pack inverse = simd::splat(0.5f * (far[n].inverse + far[n + Size - 1].inverse));
+                for (int u = 0; u < Packs; ++u) highest[u] = simd::larger(slope(n + i, u), highest[u]);
+            const pack inverse = simd::splat(0.5f * (beyond[n].inverse + beyond[n + Size - 1].inverse));
             for (int u = 0; u < Packs; ++u) {
                 best_inverse[u] = simd::select_greater(highest[u], best[u], inverse, best_inverse[u]);
-                best[u] = simd::max(highest[u], best[u]);
+                best[u] = simd::larger(highest[u], best[u]);
             }
         }
     };
-    constexpr std::int64_t for_ever = std::numeric_limits<std::int64_t>::max();
+    constexpr std::int64_t for_ever = (std::numeric_limits<std::int64_t>::max)();
     look_in_groups.template operator()<1>(alone_before);
     look_in_groups.template operator()<2>(in_pairs_before);
     look_in_groups.template operator()<4>(for_ever);
@@ -377,13 +377,13 @@ inline void look_far_from(const sampled_rows& rows, const far_row* far, std::int
 }
 
 // The same from a chunk or less.
-inline void look_far(const sampled_rows& rows, const far_row* far, std::int64_t first, int count, int packs_there,
+inline void look_far(const sampled_rows& rows, const far_row* beyond, std::int64_t first, int count, int packs_there,
                      const float* heights, float* slopes, float* inverses) {
     switch (packs_there) {
-        case 4: return look_far_from<4>(rows, far, first, count, heights, slopes, inverses);
-        case 3: return look_far_from<3>(rows, far, first, count, heights, slopes, inverses);
-        case 2: return look_far_from<2>(rows, far, first, count, heights, slopes, inverses);
-        default: return look_far_from<1>(rows, far, first, count, heights, slopes, inverses);
+        case 4: return look_far_from<4>(rows, beyond, first, count, heights, slopes, inverses);
+        case 3: return look_far_from<3>(rows, beyond, first, count, heights, slopes, inverses);
+        case 2: return look_far_from<2>(rows, beyond, first, count, heights, slopes, inverses);
+        default: return look_far_from<1>(rows, beyond, first, count, heights, slopes, inverses);
     }
 }
 

@@ -43,8 +43,8 @@ inline constexpr int narrow_from = 32;
 
 // How much farther a level reaches than the one below. Level 1 has to see some way even with few steps, since the
 // levels above it stand too far apart to tell what is that near.
-[[nodiscard]] constexpr double growth(int level, int near, bool narrow) {
-    return level == 1 ? (std::max)(80.0 / near, narrow ? 3.3 : 3.0) : level == 2 ? 3.5 : 2.5;
+[[nodiscard]] constexpr double growth(int level, int ground_rows, bool narrow) {
+    return level == 1 ? (std::max)(80.0 / ground_rows, narrow ? 3.3 : 3.0) : level == 2 ? 3.5 : 2.5;
 }
 
 // Heights without a border; but each row goes on for `overhang` cells as the edge says, so that packs may begin
@@ -91,7 +91,7 @@ struct pyramid {
     glm::dvec2 base{1.0};     // cells of the finest grid that can be halved, over texels; 1 but for odd maps that tile
     bool narrow = false;      // cells of level 1 are one column wide instead of two
     bool copied = false;      // that grid is not level 0 itself
-    int near = 1;             // rows that level 0 looks at
+    int ground_rows = 1;      // rows that level 0 looks at
     int count = 1;            // levels
     ground texels;
     std::array<level, most_levels> levels{};  // from 1 on
@@ -130,10 +130,10 @@ struct pyramid {
     p.copied = cells.x != extent.x || cells.y != extent.y || edge == edge_mode::open;
     if (edge == edge_mode::repeat || edge == edge_mode::mirror) p.base = glm::dvec2(cells) / glm::dvec2(extent);
 
-    p.near = near_rows(steps, p.resampled());
+    p.ground_rows = near_rows(steps, p.resampled());
     const auto halo = [&](int texels) {
         const std::int64_t most = period(texels, edge);
-        return int(p.count == 1 ? most : (std::min)(std::int64_t(p.near) + 1, most)) + border;
+        return int(p.count == 1 ? most : (std::min)(std::int64_t(p.ground_rows) + 1, most)) + border;
     };
     p.texels.texels = extent;
     // Rows begin at a multiple of the pack width, as far as the map's first column goes.

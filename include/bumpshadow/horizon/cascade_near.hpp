@@ -176,7 +176,7 @@ inline void look_around(const looks& l, const float* heights, float floor, float
     const auto take = [&](int u, pack slope, float inverse) {
         if constexpr (Track)
             best_inverse[u] = simd::select_greater(slope, best[u], simd::splat(inverse), best_inverse[u]);
-        best[u] = simd::max(slope, best[u]);
+        best[u] = simd::larger(slope, best[u]);
     };
     for (const crossing* c = l.corners; c != l.corners + l.corner_count; ++c) {
         const float* from = heights + c->offset;

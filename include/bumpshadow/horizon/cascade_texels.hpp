@@ -47,8 +47,8 @@ struct reach {
     for (int j = 0; j < p.count; ++j) {
         const double from = j > 0 ? s.to[std::size_t(j) - 1] : 0.0;
         const double wanted = j == p.count - 1 ? r.farthest
-                              : j == 0         ? p.near / std::abs(r.step.y)
-                                               : growth(j, p.near, p.narrow) * from;
+                              : j == 0         ? p.ground_rows / std::abs(r.step.y)
+                                               : growth(j, p.ground_rows, p.narrow) * from;
         const double most =
             j == 0 ? double(most_looks(steps)) / std::abs(r.step.y) : double(most_rows) / level_row_step(p, r, j);
         s.to[std::size_t(j)] = (std::min)({wanted, r.farthest, from + most});
@@ -62,7 +62,7 @@ struct reach {
 // on a map that repeats and has been seen four times over.
 [[nodiscard]] inline double farthest_distance(const job& j, const pyramid& p, glm::dvec2 step, bool never_negative) {
     const bool endless = is_infinite(j.options.radius);
-    double farthest = endless ? std::numeric_limits<double>::max() : j.options.radius / p.unit;
+    double farthest = endless ? (std::numeric_limits<double>::max)() : j.options.radius / p.unit;
     const glm::dvec2 extent(p.texels.texels);
     if (p.edge == edge_mode::clamp || p.edge == edge_mode::open) {
         const double x = (extent.x + 1.0) / std::abs(step.x), y = (extent.y + 1.0) / std::abs(step.y);
@@ -174,7 +174,7 @@ private:
         .row_scale = base.y / height,
         .row_start = 0.5 * height / base.y - 0.5,
         .spacing = height / (r.step.y * base.y),
-        .nearest = p.near / std::abs(r.step.y),
+        .nearest = p.ground_rows / std::abs(r.step.y),
         .bend = r.bend};
 }
 
@@ -206,21 +206,21 @@ void look_from_texels(const pyramid& p, const ray& r, rectangle texels, float fl
             float *const slopes = to.slopes(), *const inverses = to.inverses();
             int i = 0;
             for (; i + chunk <= lanes; i += chunk)
-                look_around<packs, Track>(s.near, heights + i, floor, slopes + i, inverses + i);
+                look_around<packs, Track>(s.around, heights + i, floor, slopes + i, inverses + i);
             for (; i < lanes; i += simd::width)
-                look_around<1, Track>(s.near, heights + i, floor, slopes + i, inverses + i);
+                look_around<1, Track>(s.around, heights + i, floor, slopes + i, inverses + i);
             if (parent != nullptr) {
                 bring.template operator()<Holes>(x, y, lanes, [&](int k, simd::pack a, simd::pack b) {
                     const simd::pack own = simd::load(slopes + k);
                     simd::pack theirs = slope_of(a, b, simd::load(heights + k));
                     if (open) {
                         const simd::pack end_of_row = simd::splat(inverse_of_end(r.step.y, y, p.texels.texels.y));
-                        const simd::pack end_of_ray = simd::max(simd::load(end_of_columns + k), end_of_row);
+                        const simd::pack end_of_ray = simd::larger(simd::load(end_of_columns + k), end_of_row);
                         theirs = simd::select_greater(end_of_ray, b, simd::splat(hole), theirs);
                     }
                     if constexpr (Track)
                         simd::store(inverses + k, simd::select_greater(theirs, own, b, simd::load(inverses + k)));
-                    simd::store(slopes + k, simd::max(theirs, own));
+                    simd::store(slopes + k, simd::larger(theirs, own));
                 });
             }
             if constexpr (Holes)
@@ -273,9 +273,9 @@ struct aim {
 
 // The looks of texels.
 inline void choose_near_looks(const pyramid& p, const aim& a, int steps, bool holes, looks& out) {
-    const double near = p.near / std::abs(a.head.step.y);
+    const double nearest = p.ground_rows / std::abs(a.head.step.y);
     const double inside = p.narrow ? 1.0 / 3.0 : 0.25;  // part of it where more than rows is looked at
-    choose_looks(a.along, p.texels, p.edge, a.range.to[0], near * inside, 0.5 * near * inside, holes,
+    choose_looks(a.along, p.texels, p.edge, a.range.to[0], nearest * inside, 0.5 * nearest * inside, holes,
                  most_looks(steps) - 2, out);
 }
 
@@ -330,10 +330,10 @@ void bake_texels(const job& j, int bearing, glm::dvec2 direction, rectangle texe
     pairs parent;
     for (int i = range.top; i > 1; --i) {
         auto [found, cells] = pass(i, i == range.top ? nullptr : &parent);
-        cells.advance(std::numeric_limits<std::int64_t>::max());
+        cells.advance((std::numeric_limits<std::int64_t>::max)());
         parent = found;
     }
-    choose_near_looks(p, a, j.options.steps, Holes, s.near);
+    choose_near_looks(p, a, j.options.steps, Holes, s.around);
     const float floor = a.never_negative ? 0.0f : hole;
     writer to(j, bearing, h.transposed, s.block);
     const auto look = [&](rectangle band, const pairs* above) {

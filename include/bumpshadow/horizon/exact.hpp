@@ -257,10 +257,10 @@ private:
             if (!of.starts_at_zero_ && limit > 1.0 && (limit < farthest || of.bend_ < 0.0)) {
                 const double a = std::nextafter(limit, 0.0);
                 cell(std::int64_t(a), minor_cell(a), a, limit);
-                best -= 1e-11 * std::abs(best) + std::numeric_limits<double>::min();
+                best -= 1e-11 * std::abs(best) + (std::numeric_limits<double>::min)();
                 slope_there = best;
             }
-            const double never = std::numeric_limits<double>::max();
+            const double never = (std::numeric_limits<double>::max)();
             double s = 0.0;
             std::int64_t i = 0, j = 0;
             int level = 0;
@@ -307,7 +307,7 @@ private:
     bool starts_at_zero_ = false;
     double range_ = 0.0;
     double limit_ = farthest;
-    double again_ = std::numeric_limits<double>::max();
+    double again_ = (std::numeric_limits<double>::max)();
 };
 
 }  // namespace exact_detail

@@ -64,7 +64,7 @@ struct patches {
 // Spread over the map, on multiples of the largest reduction where there is room for it.
 [[nodiscard]] inline patches choose_patches(glm::ivec2 map, std::uint32_t seed) {
     patches all;
-    all.extent = glm::min(map, glm::ivec2(patch_side));
+    all.extent = (glm::min)(map, glm::ivec2(patch_side));
     const glm::ivec2 places = (map - all.extent) / most_reduction + 1;
     all.count = int((std::min)(std::int64_t(most_patches), std::int64_t(places.x) * places.y));
     std::array<glm::ivec2, most_patches> drawn;
@@ -158,7 +158,7 @@ void look_at_patch(const height_map<Sample>& heights, const height_bounds<Sample
     const glm::ivec2 cells = all.extent / v.pixel;
     const int first = all.whole() ? (2 * core_first + v.pixel - 1) / (2 * v.pixel) : 0;
     const glm::ivec2 room =
-        all.whole() ? glm::ivec2((std::max)(core_side / v.pixel, 2)) : glm::max(cells, glm::ivec2(1));
+        all.whole() ? glm::ivec2((std::max)(core_side / v.pixel, 2)) : (glm::max)(cells, glm::ivec2(1));
     for (int i = 0; i < v.pixels; ++i) {
         const glm::ivec2 cell(first + random.below(room.x), first + random.below(room.y));
         const glm::ivec2 corner = cell * v.pixel;
@@ -173,7 +173,7 @@ void look_at_patch(const height_map<Sample>& heights, const height_bounds<Sample
             double sum = 0.0;
             for (int k = 0; k < v.samples; ++k) {
                 const glm::ivec2 inside(k % v.pixel, k / v.pixel);
-                const auto [slope, distance] = rays(glm::min(origin + corner + inside, heights.extent - 1));
+                const auto [slope, distance] = rays((glm::min)(origin + corner + inside, heights.extent - 1));
                 sum += (std::max)(slope, 0.0);
                 for (int e = 0; e < v.lights; ++e) {
                     const bool blocked = light.slopes[e] < slope;

@@ -21,7 +21,7 @@ namespace bumpshadow::plan_detail {
 struct light_range {
     double first = 0.0, arc = 1.0;  // bearings, true angles in turns; arc 1: all of them, 0: one
     double lowest_slope = 0.0;
-    double highest_slope = std::numeric_limits<double>::max();
+    double highest_slope = (std::numeric_limits<double>::max)();
 };
 
 inline constexpr double least_arc = 1e-5;  // turns: 0.0036 degrees
@@ -33,7 +33,7 @@ inline constexpr double least_arc = 1e-5;  // turns: 0.0036 degrees
 [[nodiscard]] inline light_range range_of(const scene& s) {
     light_range r;
     if (!s.lights.empty()) {
-        r.lowest_slope = std::numeric_limits<double>::max();
+        r.lowest_slope = (std::numeric_limits<double>::max)();
         r.highest_slope = 0.0;
         // The widest gap between neighboring bearings is what the arc leaves out. A light straight up has no bearing.
         double widest = 0.0;

@@ -37,7 +37,7 @@ namespace shadow_detail {
 
 // Finite for any max_slope, 0 included.
 [[nodiscard]] inline float level_of(const horizon_scale& scale, glm::vec3 light) {
-    constexpr float most = std::numeric_limits<float>::max();
+    constexpr float most = (std::numeric_limits<float>::max)();
     const float factor = (std::min)(stored_scale(scale), most);
     const float level = scale.stored == quantity::sine    ? shader::bumpshadow_sine(light)
                         : scale.stored == quantity::angle ? shader::bumpshadow_angle(light)

@@ -66,7 +66,7 @@ struct bake_plan {
         return {error::not_supported, "distances", double(options.distances.values.size())};
     if (!(relief >= 0.0)) return {error::out_of_range, "relief", relief, 0.0};
     const std::size_t slopes = required_size(heights.extent, int(directions.size()));
-    constexpr double most = double(std::numeric_limits<std::int32_t>::max());
+    constexpr double most = double((std::numeric_limits<std::int32_t>::max)());
     if (const double floats = double(heights.row_stride) * heights.extent.y; floats > most)
         return {error::out_of_range, "heights.row_stride", floats, most};
     if (double(slopes) > most) return {error::out_of_range, "slopes", double(slopes), most};
@@ -78,11 +78,11 @@ struct bake_plan {
     layout.add<crossing>(count).add<crossing>(count).add<look<2>>(count).add<look<4>>(count).add<far_row>(most_rows);
     scratch_block block;
     if (status e = block.allocate(options, layout.bytes(), "a plan's scratch"); !e) return e;
-    s.near.corners = block.carve<crossing>(count);
-    s.near.crossings = block.carve<crossing>(count);
-    s.near.columns = block.carve<look<2>>(count);
-    s.near.insides = block.carve<look<4>>(count);
-    s.far = block.carve<far_row>(most_rows);
+    s.around.corners = block.carve<crossing>(count);
+    s.around.crossings = block.carve<crossing>(count);
+    s.around.columns = block.carve<look<2>>(count);
+    s.around.insides = block.carve<look<4>>(count);
+    s.beyond = block.carve<far_row>(most_rows);
 
     const horizon_map none;
     const float highest = float((std::min)(relief / both[0].unit, 1e30));

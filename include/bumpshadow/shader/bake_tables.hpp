@@ -110,7 +110,7 @@ public:
     [[nodiscard]] std::size_t scratch_floats() const { return std::size_t(floats_); }
 
 private:
-    static constexpr std::int64_t most_floats = std::numeric_limits<std::int32_t>::max();
+    static constexpr std::int64_t most_floats = (std::numeric_limits<std::int32_t>::max)();
 
     int take(std::int64_t count) {
         const std::int64_t first = floats_;
@@ -271,7 +271,7 @@ private:
         const lattice& at = found.at;
         const bool down = a.along.step.y > 0.0;
         const double end = a.range.to[std::size_t(i)];
-        const far_rows looks = choose_far_rows(p, i, a.along, a.range.to[std::size_t(i) - 1], end, s.far);
+        const far_rows looks = choose_far_rows(p, i, a.along, a.range.to[std::size_t(i) - 1], end, s.beyond);
         const interpolation bring = parents_of_cells(p, a.along, l.width, end);
         const int rows = table_.add(3 * std::size_t(at.rows));
         for (int k = 0; k < at.rows; ++k) {
@@ -290,9 +290,9 @@ private:
         const int distances = int(table_.count);
         for (int n = 0; n < looks.count;) {
             const int size = group_of(looks.first + n, looks.count - n);
-            const float shared = 0.5f * (s.far[n].inverse + s.far[n + size - 1].inverse);
+            const float shared = 0.5f * (s.beyond[n].inverse + s.beyond[n + size - 1].inverse);
             for (const int end_of_group = n + size; n < end_of_group; ++n)
-                table_.push({bits_of(s.far[n].inverse), bits_of(shared), 0, 0});
+                table_.push({bits_of(s.beyond[n].inverse), bits_of(shared), 0, 0});
         }
         table_.set(to, {found.count, at.rows, rows, found.first});
         table_.set(to + 1, {seen + int(looks.seen_from(l, down, at.first_row, 0) - first_seen), l.rows_a_cell(),
@@ -313,23 +313,23 @@ private:
                 write_parents(rows + 3 * y + 1, bring, y, parent);
             }
         }
-        choose_near_looks(p, a, j_.options.steps, holes, s.near);
-        const looks& near = s.near;
+        choose_near_looks(p, a, j_.options.steps, holes, s.around);
+        const looks& around = s.around;
         const int crossings = int(table_.count);
         const auto add_crossing = [&](const crossing& c) {
             table_.push({int(c.offset), bits_of(c.weight[0]), bits_of(c.weight[1]), bits_of(c.inverse)});
         };
-        std::for_each_n(near.corners, near.corner_count, add_crossing);
-        std::for_each_n(near.crossings, near.crossing_count, add_crossing);
+        std::for_each_n(around.corners, around.corner_count, add_crossing);
+        std::for_each_n(around.crossings, around.crossing_count, add_crossing);
         const int others = int(table_.count);
-        for (int i = 0; i < near.column_count; ++i) {
-            const look<2>& c = near.columns[i];
+        for (int i = 0; i < around.column_count; ++i) {
+            const look<2>& c = around.columns[i];
             table_.push({int(c.offset[0]), int(c.offset[1]), 0, 0});
             table_.push({bits_of(c.weight[0]), bits_of(c.weight[1]), 0, 0});
             table_.push({bits_of(c.own), 0, 0, 0});
         }
-        for (int i = 0; i < near.inside_count; ++i) {
-            const look<4>& c = near.insides[i];
+        for (int i = 0; i < around.inside_count; ++i) {
+            const look<4>& c = around.insides[i];
             table_.push({int(c.offset[0]), int(c.offset[1]), int(c.offset[2]), int(c.offset[3])});
             table_.push({bits_of(c.weight[0]), bits_of(c.weight[1]), bits_of(c.weight[2]), bits_of(c.weight[3])});
             table_.push({bits_of(c.own), 0, 0, 0});
@@ -342,8 +342,8 @@ private:
         table_.set(to, {size.x, size.y, planes.ground + int(p.texels.offset(0, 0)), int(p.texels.row_step)});
         table_.set(to + 1,
                    {slice, transposed ? width : 1, transposed ? 1 : width, bits_of(a.never_negative ? 0.0f : hole)});
-        table_.set(to + 2,
-                   {crossings, near.corner_count + near.crossing_count, others, near.column_count + near.inside_count});
+        table_.set(to + 2, {crossings, around.corner_count + around.crossing_count, others,
+                            around.column_count + around.inside_count});
         const bool tiles = p.edge == edge_mode::repeat || p.edge == edge_mode::mirror;
         table_.set(to + 3, {tiles ? base_cells : size.x, size.x * p.levels[1].width, rows, has_parents ? 1 : 0});
         table_.set(to + 4, {bits_of(a.along.step.x > 0.0 ? leaves : -leaves), 0, 0, 0});

@@ -10,6 +10,13 @@
 
 // The shader snippets as C++: the files below are the single source of what GLSL and HLSL get, so what the CPU
 // reference computes is what a GPU runs.
+
+// Shaders cannot write (min)(a, b) as headers have to after <windows.h>.
+#pragma push_macro("min")
+#pragma push_macro("max")
+#undef min
+#undef max
+
 namespace bumpshadow::shader {
 
 using glm::abs;
@@ -47,3 +54,6 @@ using glm::vec4;
 #undef BUMPSHADOW_FUNCTION
 
 }  // namespace bumpshadow::shader
+
+#pragma pop_macro("max")
+#pragma pop_macro("min")
