@@ -242,7 +242,7 @@ private:
                                                           shift_of_occluders(l_, found_.at, made_), stride_,
                                                           s_.ring + std::ptrdiff_t(next_slot_) * stride_);
             s_.lane_zero[next_slot_] = s_.lane_zero[next_slot_ + window_] =
-                std::ptrdiff_t(next_slot_) * stride_ - first;
+                std::ptrdiff_t(std::int64_t(next_slot_) * stride_ - first);
             if (++next_slot_ == window_) next_slot_ = 0;
         }
     }

@@ -58,7 +58,7 @@ struct pairs {
     lattice at;
 
     [[nodiscard]] std::ptrdiff_t offset(std::int64_t lane, std::int64_t row) const {
-        return (row - at.first_row) * at.count + (lane - at.first_lane(row));
+        return std::ptrdiff_t((row - at.first_row) * at.count + (lane - at.first_lane(row)));
     }
 };
 
@@ -146,7 +146,7 @@ struct interpolation {
         const std::ptrdiff_t lower = parent->offset(left, std::int64_t(above) + 1);
         const rows_between rows(*this, y - above);
         if constexpr (Holes) {
-            with_holes(upper - left, lower - left, rows, lane, shift, count, visit);
+            with_holes(std::ptrdiff_t(upper - left), std::ptrdiff_t(lower - left), rows, lane, shift, count, visit);
             return;
         }
         const auto blend_rows = [&](int i) { return rows.blend(*parent, upper + i, lower + i); };
@@ -288,7 +288,7 @@ private:
                 const float right = float(between_lanes.part);
                 float sum = 0.0f, sum_a = 0.0f, sum_b = 0.0f;
                 for (int corner = 0; corner < 4; ++corner) {
-                    const std::ptrdiff_t at = (corner < 2 ? upper : lower) + cell + (corner & 1);
+                    const auto at = std::ptrdiff_t((corner < 2 ? upper : lower) + cell + (corner & 1));
                     const int r = corner / 2;
                     const float weight = ((corner & 1) != 0 ? right : 1.0f - right) * rows.weight[r];
                     if (parent->a[at] < hole_limit || weight == 0.0f) continue;

@@ -65,7 +65,7 @@ struct ground {
     std::ptrdiff_t row_step = 0;
 
     [[nodiscard]] std::ptrdiff_t offset(std::int64_t x, std::int64_t y) const {
-        return (y + halo.y) * row_step + x + halo.x;
+        return std::ptrdiff_t((y + halo.y) * row_step + x + halo.x);
     }
     [[nodiscard]] std::size_t size() const { return std::size_t(row_step) * std::size_t(texels.y + 2 * halo.y); }
 };

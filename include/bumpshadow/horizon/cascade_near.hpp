@@ -88,7 +88,7 @@ inline void choose_looks(const ray& r, const ground& g, edge_mode edge, double t
     const double row_step = std::abs(r.step.y), column_step = std::abs(r.step.x);
     const std::int64_t down = r.step.y < 0.0 ? -1 : 1, across = r.step.x < 0.0 ? -1 : 1;
     const auto offset = [&](std::int64_t x, std::int64_t y) {
-        return fold(y, g.texels.y, g.halo.y, edge) * g.row_step + fold(x, g.texels.x, g.halo.x, edge);
+        return std::ptrdiff_t(fold(y, g.texels.y, g.halo.y, edge) * g.row_step + fold(x, g.texels.x, g.halo.x, edge));
     };
     const double last_row = (std::min)(std::floor(to * row_step + 1e-9), double(most));
     for (std::int64_t n = 1; double(n) <= last_row; ++n) {

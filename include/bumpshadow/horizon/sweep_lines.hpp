@@ -248,10 +248,11 @@ struct lines {
         }
         for (int i = 0; i <= highest - lowest + count; ++i) {
             const std::int64_t row = resolve_edge(first_row + i, rows, map.edge);
-            source[i] = (row < 0 ? rows : row) * stride;
+            source[i] = std::ptrdiff_t((row < 0 ? rows : row) * stride);
             const bool inside = map.edge == edge_mode::repeat || first_row + i == row;
             const std::int64_t in_region = row - region.origin.y;
-            target[i] = inside && in_region >= 0 && in_region < region.extent.y ? in_region * row_step : -1;
+            target[i] =
+                inside && in_region >= 0 && in_region < region.extent.y ? std::ptrdiff_t(in_region * row_step) : -1;
         }
     }
 
