@@ -8,8 +8,34 @@
 #include <new>
 #include <utility>
 
+#ifdef _WIN32
+#include <windows.h>
+
+#include <shellapi.h>
+#endif
+
 namespace examples {
 namespace {
+
+void parse(CLI::App& app, [[maybe_unused]] int argc, [[maybe_unused]] char** argv) {
+#ifdef _WIN32
+    // argv has lost what the code page of the machine lacks; paths of the standard library are made from UTF-8.
+    wchar_t** const words = CommandLineToArgvW(GetCommandLineW(), &argc);
+    std::vector<std::string> arguments;  // the last one first, which is how CLI11 wants them
+    for (int i = argc; --i > 0;) {
+        const int size = WideCharToMultiByte(CP_UTF8, 0, words[i], -1, nullptr, 0, nullptr, nullptr);
+        std::string word(std::size_t(size), '\0');
+        WideCharToMultiByte(CP_UTF8, 0, words[i], -1, word.data(), size, nullptr, nullptr);
+        word.pop_back();
+        arguments.push_back(word);
+    }
+    LocalFree(words);
+    SetConsoleOutputCP(CP_UTF8);
+    app.parse(std::move(arguments));
+#else
+    app.parse(argc, argv);
+#endif
+}
 
 // The whole text as a number, or false.
 bool to_number(const std::string& text, double& number) {
@@ -102,7 +128,7 @@ void add_height_options(CLI::App& app, height_source& source, const std::string&
 int run_program(CLI::App& app, int argc, char** argv, const std::function<void()>& work) {
     const char* name = app.get_name().c_str();
     try {
-        app.parse(argc, argv);
+        parse(app, argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::fprintf(stderr, "%s: %s (%s --help lists the options)\n", name, error.what(), name);

@@ -15,7 +15,13 @@ namespace {
 namespace bs = bumpshadow;
 
 // printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
+#ifdef __MINGW32__
+[[gnu::format(gnu_printf, 1, 2)]]  // there "printf" stands for an older one, which is not what is called
+#else
+[[gnu::format(printf, 1, 2)]]
+#endif
+std::string
+text(const char* format, ...) {
     char buffer[512];
     std::va_list arguments;
     va_start(arguments, format);

@@ -8,16 +8,46 @@
 #include <string>
 #include <system_error>
 
+#ifdef _WIN32
+#include <windows.h>
+
+#include <fcntl.h>
+#include <io.h>
+#endif
+
 namespace examples {
 namespace {
 
+using path_character = std::filesystem::path::value_type;
+
+#ifdef _WIN32
+std::FILE* open_to_read(const std::filesystem::path& path) { return _wfopen(path.c_str(), L"rb"); }
+
+// fopen would not let the signal handler remove what is open.
+std::FILE* open_to_write(const std::filesystem::path& path) {
+    const HANDLE handle = CreateFileW(path.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_DELETE, nullptr,
+                                      CREATE_ALWAYS, FILE_ATTRIBUTE_NORMAL, nullptr);
+    if (handle == INVALID_HANDLE_VALUE) {
+        errno = std::error_code(int(GetLastError()), std::system_category()).default_error_condition().value();
+        return nullptr;
+    }
+    return _fdopen(_open_osfhandle(reinterpret_cast<std::intptr_t>(handle), _O_BINARY), "wb");
+}
+
+void remove_file(const path_character* path) { DeleteFileW(path); }
+#else
+std::FILE* open_to_read(const std::filesystem::path& path) { return std::fopen(path.c_str(), "rb"); }
+std::FILE* open_to_write(const std::filesystem::path& path) { return std::fopen(path.c_str(), "wb"); }
+void remove_file(const path_character* path) { std::remove(path); }
+#endif
+
 // Parts that exist right now, for the signal handler, which may read nothing but lock-free atomics.
-std::array<std::atomic<const char*>, 64> open_parts{};
-static_assert(std::atomic<const char*>::is_always_lock_free);
+std::array<std::atomic<const path_character*>, 64> open_parts{};
+static_assert(std::atomic<const path_character*>::is_always_lock_free);
 
 extern "C" void remove_parts_and_end(int signal) {
-    for (const std::atomic<const char*>& part : open_parts)
-        if (const char* path = part.load()) std::remove(path);
+    for (const std::atomic<const path_character*>& part : open_parts)
+        if (const path_character* path = part.load()) remove_file(path);
     std::signal(signal, SIG_DFL);
     std::raise(signal);
 }
@@ -47,7 +77,9 @@ std::string reason_text(int reason) { return std::generic_category().message(rea
 
 std::vector<unsigned char> read_file(const std::filesystem::path& path) {
     const auto fail = [&](int reason) { throw failure("cannot read " + path.string() + ": " + reason_text(reason)); };
-    std::FILE* file = std::fopen(path.string().c_str(), "rb");
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) fail(EISDIR);
+    std::FILE* file = open_to_read(path);
     if (file == nullptr) fail(errno);
     std::vector<unsigned char> bytes;
     std::array<unsigned char, 65536> chunk;
@@ -79,33 +111,34 @@ void output_folder::remove_created() {
     for (const std::filesystem::path& p : created_) std::filesystem::remove(p, ignored);
 }
 
-output_file::output_file(std::filesystem::path target) : target_(std::move(target)), part_(target_.string() + ".part") {
+output_file::output_file(std::filesystem::path target) : target_(std::move(target)), part_(target_) {
+    part_ += ".part";
     handle_signals();
     std::error_code ignored;
-    if (std::filesystem::is_directory(target_, ignored)) fail(EISDIR);
+    if (std::filesystem::is_directory(target_, ignored)) fail(reason_text(EISDIR));
     // Known to the handler before it exists, so that no moment is left in which a signal leaves it behind.
     bool noted = false;
-    for (std::atomic<const char*>& part : open_parts) {
-        const char* empty = nullptr;
+    for (std::atomic<const path_character*>& part : open_parts) {
+        const path_character* empty = nullptr;
         if ((noted = part.compare_exchange_strong(empty, part_.c_str()))) break;
     }
-    if (!noted) fail(EMFILE);
-    file_ = std::fopen(part_.c_str(), "wb");
+    if (!noted) fail(reason_text(EMFILE));
+    file_ = open_to_write(part_);
     if (file_ != nullptr) return;
     const int reason = errno;
     forget();
-    fail(reason);
+    fail(reason_text(reason));
 }
 
 output_file::~output_file() {
     if (part_.empty()) return;
     if (file_ != nullptr) std::fclose(file_);
-    std::remove(part_.c_str());
+    remove_file(part_.c_str());
     forget();
 }
 
 void output_file::write(std::span<const std::byte> bytes) {
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(errno);
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(reason_text(errno));
 }
 
 void output_file::close() {
@@ -114,25 +147,25 @@ void output_file::close() {
     const int reason = errno;
     const bool close_failed = std::fclose(file_) != 0;
     file_ = nullptr;
-    if (failed || close_failed) fail(failed ? reason : errno);
+    if (failed || close_failed) fail(reason_text(failed ? reason : errno));
 }
 
 void output_file::commit() {
     close();
     std::error_code error;
     std::filesystem::rename(part_, target_, error);
-    if (error) fail(error.value());
+    if (error) fail(error.message());
     forget();
     part_.clear();
 }
 
-void output_file::fail(int reason) const {
-    throw failure("cannot write " + target_.string() + ": " + reason_text(reason));
+void output_file::fail(const std::string& reason) const {
+    throw failure("cannot write " + target_.string() + ": " + reason);
 }
 
 void output_file::forget() noexcept {
-    for (std::atomic<const char*>& part : open_parts) {
-        const char* mine = part_.c_str();
+    for (std::atomic<const path_character*>& part : open_parts) {
+        const path_character* mine = part_.c_str();
         if (part.compare_exchange_strong(mine, nullptr)) return;
     }
 }

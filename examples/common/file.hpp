@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -52,7 +53,7 @@ public:
     output_file& operator=(const output_file&) = delete;
 
     void write(std::span<const std::byte> bytes);
-    void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+    void write(std::string_view text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
     // Flushes and closes the part; a full disk is found here at the latest.
     void close();
     // Closes and renames. Replaces a file that was there.
@@ -61,11 +62,10 @@ public:
     [[nodiscard]] const std::filesystem::path& target() const { return target_; }
 
 private:
-    [[noreturn]] void fail(int reason) const;
+    [[noreturn]] void fail(const std::string& reason) const;
     void forget() noexcept;
 
-    std::filesystem::path target_;
-    std::string part_;
+    std::filesystem::path target_, part_;
     std::FILE* file_ = nullptr;
 };
 

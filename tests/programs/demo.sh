@@ -16,7 +16,7 @@ has_all() {
     grep -q '://' "$1/index.html" && fail "$1/index.html needs the network"
     grep -q 'ns a sample' stdout || fail "no time: $(cat stdout)"
     grep -q 'mean [0-9.]* degrees, 99th percentile [0-9.]* degrees' stdout || fail "no error: $(cat stdout)"
-    grep -q "Open .*/$1/index.html" stdout || fail "where the page is: $(cat stdout)"
+    tr '\\' / <stdout | grep -q "Open .*/$1/index.html" || fail "where the page is: $(cat stdout)"
 }
 
 run -o out/wall
@@ -71,9 +71,13 @@ printf '\000\000\000\000\000\000\300\177' >in/nan.f32
 refuse 1 'height is nan at texel (1, 0)' in/nan.f32 -o out/a --raw 2 1
 
 # A file system that takes no more.
-before=$(left)
-(ulimit -f 2 && "$program" in/bumps.png -o out/a/b >stdout 2>stderr) && fail "wrote more than the limit"
-grep -q 'cannot write out/a/b/' stderr || fail "full: $(cat stderr)"
-[ "$(left)" = "$before" ] || fail "full: left $(left)"
+if [ -n "$posix" ]; then
+    before=$(left)
+    (ulimit -f 2 && "$program" in/bumps.png -o out/a/b >stdout 2>stderr) && fail "wrote more than the limit"
+    grep -q 'cannot write out/a/b/' stderr || fail "full: $(cat stderr)"
+    [ "$(left)" = "$before" ] || fail "full: left $(left)"
+else
+    echo "skipped: a full disk is a limit of POSIX here"
+fi
 
 finish

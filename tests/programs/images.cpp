@@ -4,6 +4,7 @@
 //   program_test_images size FILE            width, height, channels
 
 #include <array>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -146,6 +147,10 @@ int main(int argc, char** argv) try {
     const std::vector<std::string> words(argv + 1, argv + argc);
     if (words.size() == 2 && words[0] == "make") {
         make(words[1]);
+    } else if (words.size() == 2 && words[0] == "interrupt") {
+        examples::output_file file(words[1]);
+        file.write("half");
+        std::raise(SIGTERM);
     } else if (words.size() >= 2 && (words[0] == "size" || words[0] == "pixel")) {
         const auto picture = std::get<examples::image8>(examples::read_image(words[1]));
         if (words[0] == "size") {
