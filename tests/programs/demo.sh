@@ -16,7 +16,7 @@ has_all() {
     grep -q '://' "$1/index.html" && fail "$1/index.html needs the network"
     grep -q 'ns a sample' stdout || fail "no time: $(cat stdout)"
     grep -q 'mean [0-9.]* degrees, 99th percentile [0-9.]* degrees' stdout || fail "no error: $(cat stdout)"
-    tr '\\' / <stdout | grep -q "Open .*/$1/index.html" || fail "where the page is: $(cat stdout)"
+    sed 's|\\|/|g' stdout | grep -q "Open .*/$1/index.html" || fail "where the page is: $(cat stdout)"
 }
 
 run -o out/wall
