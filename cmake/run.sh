@@ -6,6 +6,9 @@
 #   sh cmake/run.sh test                          build everything, run the tests
 #   sh cmake/run.sh clang                         the same with clang++
 #   sh cmake/run.sh sanitize                      the same with address and undefined behavior sanitizers
+#   sh cmake/run.sh windows                       the tests for Windows by MinGW, run under Wine
+#   sh cmake/run.sh arm                           for 64-bit Arm, run under QEMU, twice: the compiler's vectors and xsimd
+#   sh cmake/run.sh web                           golden bytes and a bake in WebAssembly by Emscripten, run under Node
 #   sh cmake/run.sh full                          these, slow tests, more random maps, other builds, clang-tidy, all
 #                                                 measurements
 #
@@ -47,6 +50,9 @@ has_vulkan() {
     return 1
 }
 
+# Debian's package wine64 puts it where no PATH leads.
+has_wine() { has_tool wine64 || has_tool wine || [ -x /usr/lib/wine/wine64 ]; }
+
 # Debian's names of the packages that are missing; what the others are for is skipped without them.
 tools='' headers='' others=''
 look_for_tool() { has_tool "$1" || tools="$tools $2"; }
@@ -83,8 +89,8 @@ look_for_check_tools() {
     has_tool valgrind || others="$others valgrind"
 }
 
-# Installs what the arguments (clang, xsimd, shaders, properties, consumers, checks, measure, plots, costs) and every
-# build need and do not have.
+# Installs what the arguments (clang, xsimd, shaders, properties, consumers, checks, measure, plots, costs, windows, arm,
+# web) and every build need and do not have.
 set_up() {
     tools='' headers='' others=''
     has_tool "${CXX:-c++}" || look_for_tool g++ g++
@@ -106,6 +112,18 @@ set_up() {
             plots) has_tool gnuplot || others="$others gnuplot-nox" ;;
             costs) look_for_cost_tools ;;
             properties) has_header rapidcheck.h || others="$others librapidcheck-dev" ;;
+            windows)
+                look_for_tool x86_64-w64-mingw32-g++-posix g++-mingw-w64-x86-64-posix
+                has_wine || look_for_tool wine64 wine64
+                ;;
+            arm)
+                look_for_tool aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
+                look_for_tool qemu-aarch64 qemu-user
+                ;;
+            web)
+                look_for_tool em++ emscripten
+                look_for_tool node nodejs
+                ;;
         esac
     done
 
@@ -122,7 +140,15 @@ set_up() {
         fi
         for tool in $tools; do
             [ "$tool" != ninja-build ] || tool=ninja
-            [ "$tool" != clang ] || tool=clang++
+            case $tool in
+                clang) tool=clang++ ;;
+                g++-mingw-w64-x86-64-posix) tool=x86_64-w64-mingw32-g++-posix ;;
+                wine64) if has_wine; then continue; fi ;;
+                g++-aarch64-linux-gnu) tool=aarch64-linux-gnu-g++ ;;
+                qemu-user) tool=qemu-aarch64 ;;
+                emscripten) tool=em++ ;;
+                nodejs) tool=node ;;
+            esac
             has_tool "$tool" || fail "cannot go on without $tool"
         done
         # CMake knows more places for headers than the usual ones, so it has the last word about those.
@@ -162,6 +188,40 @@ variant() {
         cmake --build "build/$name"
         ctest --test-dir "build/$name" --output-on-failure --no-tests=error --label-exclude slow
     )
+}
+
+# What the other machines are compared with.
+native_result() {
+    (
+        cd "$root"
+        cmake --preset release
+        cmake --build build/release --target bumpshadow_cross
+        build/release/tests/bumpshadow_cross write build/native_result
+    )
+}
+
+windows() {
+    native_result
+    # The first program that runs would have to wait for this, and print what it says.
+    sh "$root/cmake/toolchains/wine.sh" wineboot --init >/dev/null 2>&1 || fail "Wine does not start"
+    workflow windows
+}
+
+arm() {
+    native_result
+    workflow arm
+    (
+        cd "$root"
+        cmake --preset arm -B build/arm-xsimd -DBUMPSHADOW_SIMD=xsimd -DBUMPSHADOW_BUILD_EXAMPLES=OFF
+        cmake --build build/arm-xsimd --target bumpshadow_tests bumpshadow_golden bumpshadow_cross
+        ctest --test-dir build/arm-xsimd --output-on-failure --no-tests=error --label-exclude slow \
+            --tests-regex '^(horizon|encode|golden|measure|reference)\.|^(native|extents|factor_cube|normal_map)$'
+    )
+}
+
+web() {
+    native_result
+    workflow web
 }
 
 # Properties of a hundred times as many random maps as the test looks at. The seed is printed, and what it found wrong
@@ -296,8 +356,22 @@ case $command in
         workflow clang
         note_maps
         ;;
+    windows)
+        set_up windows
+        windows
+        note_maps
+        ;;
+    arm)
+        set_up arm xsimd
+        arm
+        note_maps
+        ;;
+    web)
+        set_up web
+        web
+        ;;
     full)
-        set_up clang xsimd shaders properties consumers measure plots checks
+        set_up windows arm web clang xsimd shaders properties consumers measure plots checks
         workflow test
         (cd "$root" && ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex slow)
         random_properties
@@ -309,6 +383,9 @@ case $command in
         # doctest's own switch for a build without exceptions; the programs need them.
         bare="-fno-exceptions -fno-rtti -DDOCTEST_CONFIG_NO_EXCEPTIONS_BUT_WITH_ALL_ASSERTS"
         variant bare -DBUMPSHADOW_BUILD_EXAMPLES=OFF "-DCMAKE_CXX_FLAGS=$bare"
+        windows
+        arm
+        web
         thread_sanitizer
         under_valgrind
         tidy

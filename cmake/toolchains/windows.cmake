@@ -1,0 +1,9 @@
+# 64-bit Windows by MinGW; programs run under Wine. Debian, Ubuntu: g++-mingw-w64-x86-64-posix, wine64.
+set(CMAKE_SYSTEM_NAME Windows)
+set(CMAKE_SYSTEM_PROCESSOR x86_64)
+set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
+# Programs run without a search for the libraries of the compiler.
+set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
+set(CMAKE_CROSSCOMPILING_EMULATOR "sh;${CMAKE_CURRENT_LIST_DIR}/wine.sh")
+set(CMAKE_FIND_ROOT_PATH /usr/x86_64-w64-mingw32)
+include("${CMAKE_CURRENT_LIST_DIR}/packages.cmake")
