@@ -92,7 +92,9 @@ namespace {
 
 constexpr float largest = std::numeric_limits<float>::max(), denormal = 1e-40f;
 
-// Zero, too long and too short for their squares, straight up and down, in the surface, below it.
+const float none = 0.0f, undefined = none / none;
+
+// Zero, too long and too short for their squares, straight up and down, in the surface, grazing, below it.
 const vec3 bad_lights[] = {
     {0.0f, 0.0f, 0.0f},
     {-0.0f, -0.0f, -0.0f},
@@ -110,7 +112,13 @@ const vec3 bad_lights[] = {
     {1.0f, 0.0f, 0.0f},
     {0.0f, -1.0f, -denormal},
     {-0.6f, 0.0f, -0.8f},
+    {0.6f, 0.8f, 1e-7f},
+    {-1.0f, 1.0f, -1e-7f},
+    {1.0f, -1.0f, 1.0f},
 };
+// Some or all of a light's components.
+constexpr float infinite[] = {
+    0.0f, 1.0f, -1e-7f, largest, infinity, -infinity, std::numeric_limits<float>::quiet_NaN()};
 constexpr float all_k[] = {0.0f, denormal, 1.0f, 8.0f, 1e30f, largest, infinity};
 
 using level_function = float (*)(vec3);
@@ -138,7 +146,6 @@ bool are_factors(float level, float horizon, float k) {
 }  // namespace
 
 TEST_CASE("shader shadow factors are finite and in [0, 1] for every input") {
-    const float none = 0.0f, undefined = none / none;
     for (const vec3 light : bad_lights)
         for (const level_function level : levels)
             for (const float max_slope : {0.0f, denormal, 4.0f})
@@ -165,6 +172,37 @@ TEST_CASE("shader shadow factors are finite and in [0, 1] for every input") {
     }
     CHECK(shader::bumpshadow_shadow_hard(infinity, 0.7f) == 1.0f);
     CHECK(shader::bumpshadow_shadow_hard(undefined, 0.7f) == 0.0f);
+    // A horizon that is not a number blocks no light there, and all of it with a soft edge.
+    CHECK(shader::bumpshadow_shadow_hard(0.7f, undefined) == 1.0f);
+    CHECK(shader::bumpshadow_shadow_hard(-0.7f, undefined) == 0.0f);
+    CHECK(shader::bumpshadow_shadow_soft(0.7f, undefined, 8.0f, 1.0f) == 0.0f);
+}
+
+TEST_CASE(
+    "shader shadow factors of lights that are not finite are 0 or 1 without a soft edge, and in [0, 1] with one") {
+    for (const float x : infinite)
+        for (const float y : infinite)
+            for (const float z : infinite) {
+                const vec3 light(x, y, z);
+                const bool undefined_level = std::isnan(x) || std::isnan(y) || std::isnan(z);
+                for (const level_function level : levels)
+                    for (const float horizon : {0.0f, 0.3f, 1.0f})
+                        for (const float k : all_k) {
+                            CHECK(are_factors(level(light) / divisor_of(4.0f), horizon, k));
+                            if (!undefined_level) continue;
+                            CHECK(shader::bumpshadow_shadow_hard(level(light), horizon) == 0.0f);
+                            CHECK(shader::bumpshadow_shadow_soft(level(light), horizon, k, 0.5f) == 0.0f);
+                            CHECK(shader::bumpshadow_shadow_soft_above(level(light), horizon, k, 0.5f) == 0.0f);
+                        }
+                // Horizons of decoders that compute with the bearing of such a light.
+                const glm::vec4 low(0.1f, 0.2f, 0.3f, 0.4f), high(0.5f, 0.6f, 0.7f, 0.8f);
+                const vec2 v(x, y);
+                for (const float horizon :
+                     {shader::bumpshadow_sine_layers(low, high, v), shader::bumpshadow_sine_half(low, high.x, v),
+                      shader::bumpshadow_sine_layers_factors(low, high, shader::bumpshadow_factors(v)),
+                      shader::bumpshadow_fourier_5(low, 0.5f, shader::bumpshadow_fourier_direction(v))})
+                    for (const float k : all_k) CHECK(are_factors(shader::bumpshadow_slope(light), horizon, k));
+            }
 }
 
 // Its max_slope is 0, and so is all that its texture holds.

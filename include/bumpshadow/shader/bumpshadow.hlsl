@@ -348,16 +348,18 @@ float3 bumpshadow_normal_of_derivatives(float2 stored, float max_slope, float y)
 // Shadow factor: 0 in shadow, 1 in light, and in [0, 1] for every input. `light` and `horizon` in the quantity that the
 // texture stores, both over what stands for 1 there or both as they are; the edge of the shadow is 1 / k wide in it. A
 // light below the surface (light < 0) gives 0, and one exactly on the horizon is lit (hard, c = 1) or half lit (c =
-// 0.5). An infinite level gives 1, and what is not a number (0 / 0, or infinity with k = 0) 0.
+// 0.5). An infinite level gives 1, and one that is not a number (0 / 0, or infinity with k = 0) 0; but GLSL promises
+// nothing of such numbers, and Mesa's atan makes others of them: any factor in [0, 1].
 
 // No soft edge: the limit of large k.
 float bumpshadow_shadow_hard(float light, float horizon) {
-    return light >= max(horizon, 0.0) ? 1.0 : 0.0;
+    // In this order, max takes the 0 where the other is not a number; here and below.
+    return light >= max(0.0, horizon) ? 1.0 : 0.0;
 }
 
 // clamp(k (light - horizon) + c, 0, 1), for a light that is never below the surface or does not shine there anyway.
 float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
-    // In this order, max takes the 0 where the other is not a number; clamp may keep that.
+    // clamp may keep what is not a number.
     return min(max(0.0, min(k, 1e30) * (light - horizon) + c), 1.0);
 }
 

@@ -500,11 +500,13 @@ R"~(float3 bumpshadow_normal_of_derivatives(float2 stored, float max_slope, floa
 R"~(// No soft edge: the limit of large k.
 )~",
 R"~(float bumpshadow_shadow_hard(float light, float horizon) {
-    return light >= max(horizon, 0.0) ? 1.0 : 0.0;
+    // In this order, max takes the 0 where the other is not a number; here and below.
+    return light >= max(0.0, horizon) ? 1.0 : 0.0;
 }
 )~",
 R"~(float bumpshadow_shadow_hard(float light, float horizon) {
-    return light >= max(horizon, 0.0) ? 1.0 : 0.0;
+    // In this order, max takes the 0 where the other is not a number; here and below.
+    return light >= max(0.0, horizon) ? 1.0 : 0.0;
 }
 )~",
      {0x800000000u, 0x0u, 0x0u, 0x0u}},
@@ -512,12 +514,12 @@ R"~(float bumpshadow_shadow_hard(float light, float horizon) {
 R"~(// clamp(k (light - horizon) + c, 0, 1), for a light that is never below the surface or does not shine there anyway.
 )~",
 R"~(float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
-    // In this order, max takes the 0 where the other is not a number; clamp may keep that.
+    // clamp may keep what is not a number.
     return min(max(0.0, min(k, 1e30) * (light - horizon) + c), 1.0);
 }
 )~",
 R"~(float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c) {
-    // In this order, max takes the 0 where the other is not a number; clamp may keep that.
+    // clamp may keep what is not a number.
     return min(max(0.0, min(k, 1e30) * (light - horizon) + c), 1.0);
 }
 )~",

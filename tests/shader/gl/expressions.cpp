@@ -79,11 +79,12 @@ std::vector<vec4> lights() {
         for (const float slope : {-0.5f, 0.0f, 0.02f, 0.7f, 9.0f})
             directions.emplace_back(std::cos(angle), std::sin(angle), slope);
     }
-    // Axes and diagonals, where bearings are pieced together, and next to them.
+    // Axes and diagonals, where bearings are pieced together, and next to them; edges and corners of a cube; grazing.
     for (const float x : {-1.0f, 0.0f, 1.0f})
         for (const float y : {-1.0f, 0.0f, 1.0f})
             for (const float turned : {0.0f, 1e-6f, -1e-6f})
-                for (const float z : {0.4f, -0.3f}) directions.emplace_back(x - turned * y, y + turned * x, z);
+                for (const float z : {0.4f, -0.3f, 1.0f, -1.0f, 1e-7f, -1e-7f})
+                    directions.emplace_back(x - turned * y, y + turned * x, z);
     for (const float z : {1.0f, -1.0f}) {
         directions.emplace_back(0.0f, 0.0f, z);
         directions.emplace_back(-0.0f, -0.0f, z);

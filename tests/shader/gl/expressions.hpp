@@ -50,8 +50,9 @@ struct inputs {
     vec4 values[4] = {};
 };
 
-// Every light of a set that has all hard cases, as (x, y, z, 0): all around at several elevations, along axes and
-// diagonals, straight up and down, zero, below the surface, lengths from 1e-10 to 1e10, denormal components.
+// Every finite light of a set that has all hard cases, as (x, y, z, 0): all around at several elevations, along axes
+// and diagonals, to the edges and corners of a cube, grazing, straight up and down, zero, below the surface, lengths
+// from 1e-10 to 1e10, denormal components.
 [[nodiscard]] std::vector<vec4> lights();
 
 struct difference {
