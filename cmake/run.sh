@@ -255,8 +255,8 @@ fuzz() {
     (
         cd "$root"
         cmake --preset clang -B build/fuzz -DBUMPSHADOW_FUZZ=ON -DBUMPSHADOW_TEST_HEADERS=OFF
-        cmake --build build/fuzz --target fuzz_bake fuzz_read fuzz_snippets
-        for target in bake read snippets; do
+        cmake --build build/fuzz --target fuzz_bake fuzz_read fuzz_snippets fuzz_json
+        for target in bake read snippets json; do
             say "fuzzing $target for $seconds seconds"
             mkdir -p "build/fuzz/corpus/$target"
             "build/fuzz/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=60 -max_len=4000 -verbosity=0 \

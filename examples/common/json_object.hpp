@@ -104,7 +104,8 @@ public:
     // Refuses keys that were not asked for.
     void end() const {
         for (const auto& [key, value] : value_.items())
-            if (!known_.contains(key)) throw failure(where() + " has an unknown key \"" + key + "\": " + shown(value));
+            if (!known_.contains(key))
+                throw failure(where() + " has an unknown key " + shown(key) + ": " + shown(value));
     }
     [[noreturn]] void refuse(const char* key, const std::string& wanted) {
         throw failure(file_ + ": " + path_of(key) + " is " + shown(at(key)) + ", but has to be " + wanted);

@@ -182,6 +182,9 @@ TEST_CASE("what is no scene or recipe is refused with its key") {
           "file: arc.elevation is [5,91], but has to be from 0 to 90 degrees");
     CHECK(why(R"({"Lights": 1})", false) == "file has an unknown key \"Lights\": 1");
     CHECK(why(R"({"mismatch": 2})", false) == "file: mismatch is 2, but has to be at least 0.0 and at most 1.0");
+    // One line, whatever the key is.
+    CHECK(why(R"({"a\nb": 1})", false) == R"(file has an unknown key "a\nb": 1)");
+    CHECK(why(R"({"a\nb": 1, "a\nb": 1})", false) == R"(file: "a\nb" is there twice)");
     CHECK(why("{}", true) == "file has no \"shadows\"");
     // Every key of a recipe has to be there, and to be of its type.
     const std::string good = examples::json_of(any_recipe(1));
@@ -200,6 +203,9 @@ TEST_CASE("what is no scene or recipe is refused with its key") {
     for (std::size_t length = 0; length < good.size(); length += 7)
         CHECK(why(good.substr(0, length), true).starts_with("file is no JSON: "));
     CHECK(why(std::string(100000, '['), true).starts_with("file"));
+    const std::string nested = "{\"degrees\":" + std::string(1000000, '[') + std::string(1000000, ']') + "}";
+    CHECK(why(nested, false) == "file: lists and objects in each other, more than 64 deep");
+    CHECK(why("{\"degrees\": \"" + std::string(1000000, 'a') + "}", false).size() < 400);
     CHECK(why("{\"why\": \"\xff\"}", true).starts_with("file is no JSON: "));
 }
 
