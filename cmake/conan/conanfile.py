@@ -33,6 +33,7 @@ class BumpshadowConan(ConanFile):
             copy(self, pattern, src=self._top, dst=self.export_sources_folder)
 
     def layout(self):
+        self.folders.root = os.path.join("..", "..")
         cmake_layout(self)
 
     def requirements(self):

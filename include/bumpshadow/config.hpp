@@ -16,7 +16,7 @@
 #endif
 
 #include <version>
-#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 160000
+#if defined(_LIBCPP_VERSION) && !__has_include(<memory_resource>)
 #error "bumpshadow needs libc++ 16 or newer (for <memory_resource>): choose a newer one, or -stdlib=libstdc++"
 #include "the error above says what to do"
 #endif

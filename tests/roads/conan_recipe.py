@@ -42,6 +42,7 @@ class ConanFile:
         self.build_folder = os.path.join(work, "build")
         self.package_folder = os.path.join(work, "package")
         self.settings = Attributes(os="Linux", arch="x86_64", compiler="gcc", build_type="Release")
+        self.folders = Attributes()
         self.cpp_info = Attributes()
         self.info = Attributes(clear=lambda: None)
         self.required = {}
