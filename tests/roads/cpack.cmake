@@ -44,8 +44,8 @@ run_well("dpkg-deb --field" ${DPKG_DEB} --field "${package}" Maintainer Descript
 expect("someone maintains it, and it is described" output MATCHES "Maintainer: [^\n]+\n.*Description: [^\n]+\n [^\n]+")
 run_well("dpkg-deb --contents" ${DPKG_DEB} --contents "${package}")
 # Folders drwxr-xr-x, files -rw-r--r--, all of them root's.
-string(REGEX REPLACE "(drwxr-xr-x|-rw-r--r--) root/root [^\n]*\n" "" others "${output}")
-expect("owner and modes of ${others}" NOT others)
+string(REGEX REPLACE "(drwxr-xr-x|-rw-r--r--) root/root [^\n]*\n" "" output "${output}")
+expect("owners and modes" NOT output)
 run_well("dpkg-deb --extract" ${DPKG_DEB} --extract "${package}" "${WORK}/deb")
 set(copyright "${WORK}/deb/usr/share/doc/libbumpshadow-dev")
 expect("its license lies where Debian looks" EXISTS "${copyright}/copyright")
