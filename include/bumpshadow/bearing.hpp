@@ -30,12 +30,13 @@ namespace bumpshadow {
 // X_direction, take any finite bearing and return the unit vector whose X_bearing it is. Horizons that a shader looks
 // up through X_bearing are baked in the directions of X_direction. Vectors and bearings have to be finite.
 
-// Degrees. Measured over all directions.
-inline constexpr double quintic_max_error = 0.01153;
-inline constexpr double cubic_max_error = 0.1221;
-inline constexpr double octant_max_error = 1.8967;
-inline constexpr double diamond_max_error = 4.0749;
+// Largest errors in degrees, measured over all directions.
+inline constexpr double quintic_max_error = 0.01153;  // degrees
+inline constexpr double cubic_max_error = 0.1221;     // degrees
+inline constexpr double octant_max_error = 1.8967;    // degrees
+inline constexpr double diamond_max_error = 4.0749;   // degrees
 
+// Numbers that bearings are computed in.
 template <class T>
 concept bearing_scalar = std::same_as<T, float> || std::same_as<T, double>;
 
@@ -131,15 +132,15 @@ template <bearing_scalar T, int N>
 
 }  // namespace bearing_detail
 
-// The true angle.
+// The true angle, in turns.
 template <bearing_scalar T>
 [[nodiscard]] inline T exact_bearing(glm::vec<2, T> v) {
     const auto [axis, ratio] = bearing_detail::fold(v);
     return bearing_detail::wrap_bearing(axis + std::atan(ratio) * T(0.15915494309189533577));
 }
 
-// Multiples of 1/8 turn give exactly (1, 0), (s, s), (0, 1) and so on; bearings that mirror each other at one of these
-// directions, as far as they can be written exactly, give exact mirror images.
+// The unit vector of a bearing. Multiples of 1/8 turn give exactly (1, 0), (s, s), (0, 1) and so on; bearings that
+// mirror each other at one of these directions, as far as they can be written exactly, give exact mirror images.
 template <bearing_scalar T>
 [[nodiscard]] inline glm::vec<2, T> exact_direction(T bearing) {
     const auto [quarter, offset] = bearing_detail::split(bearing);
@@ -148,12 +149,13 @@ template <bearing_scalar T>
     return bearing_detail::quarter_turns(quarter, glm::vec<2, T>(std::cos(angle), std::sin(angle)));
 }
 
+// Phase of the published octant function, in turns.
+inline constexpr double octant_published_phase = 0.125;
+
 // Forsyth's piecewise linear function: in each quadrant around an axis, the component of the unit vector across that
 // axis. phase: the bearing that comes out as 0. The published listing starts at 45 degrees, octant_published_phase;
 // its rounded constants (0.707 and 0.25 / 1.414) return slightly more than 1 at (0.7071, 0.7071), which this does not.
-// Source: Forsyth, Self-shadowing Bumpmap using 3D Texture Hardware, section 4.1.
-inline constexpr double octant_published_phase = 0.125;
-
+// Source: Forsyth 2002, Self-shadowing Bumpmap using 3D Texture Hardware, section 4.1.
 template <bearing_scalar T>
 [[nodiscard]] inline T octant_bearing(glm::vec<2, T> v, std::type_identity_t<T> phase = T(0)) {
     const auto [axis, ratio] = bearing_detail::fold(v);
@@ -161,6 +163,7 @@ template <bearing_scalar T>
     return bearing_detail::wrap_bearing(axis + offset - phase);
 }
 
+// The unit vector whose octant_bearing, with the same phase, is this.
 template <bearing_scalar T>
 [[nodiscard]] inline glm::vec<2, T> octant_direction(T bearing, std::type_identity_t<T> phase = T(0)) {
     const auto [quarter, offset] = bearing_detail::split(bearing + phase);
@@ -175,6 +178,7 @@ template <bearing_scalar T>
     return bearing_detail::wrap_bearing(axis + T(0.25) * ratio / (T(1) + std::abs(ratio)));
 }
 
+// The unit vector whose diamond_bearing is this.
 template <bearing_scalar T>
 [[nodiscard]] inline glm::vec<2, T> diamond_direction(T bearing) {
     const auto [quarter, offset] = bearing_detail::split(bearing);
@@ -188,6 +192,7 @@ template <bearing_scalar T>
     return bearing_detail::sine_bearing(bearing_detail::cubic_coefficients<T>, v);
 }
 
+// The unit vector whose cubic_bearing is this.
 template <bearing_scalar T>
 [[nodiscard]] inline glm::vec<2, T> cubic_direction(T bearing) {
     return bearing_detail::solve_odd_polynomial(bearing_detail::cubic_coefficients<T>, bearing);
@@ -199,12 +204,13 @@ template <bearing_scalar T>
     return bearing_detail::sine_bearing(bearing_detail::quintic_coefficients<T>, v);
 }
 
+// The unit vector whose quintic_bearing is this.
 template <bearing_scalar T>
 [[nodiscard]] inline glm::vec<2, T> quintic_direction(T bearing) {
     return bearing_detail::solve_odd_polynomial(bearing_detail::quintic_coefficients<T>, bearing);
 }
 
-// The functions by name.
+// Bearing of a vector by the function of that name, in turns; octant with phase 0.
 template <bearing_scalar T>
 [[nodiscard]] inline T to_bearing(bearing_function function, glm::vec<2, T> v) {
     switch (function) {
@@ -217,6 +223,7 @@ template <bearing_scalar T>
     return exact_bearing(v);
 }
 
+// Its inverse: the unit vector of a bearing.
 template <bearing_scalar T>
 [[nodiscard]] inline glm::vec<2, T> to_direction(bearing_function function, T bearing) {
     switch (function) {
@@ -255,12 +262,12 @@ void fill_directions(std::span<glm::dvec2> out, double phase, const Direction& d
     }
 }
 
-// The same for a function by name.
+// The same by the inverse of a bearing function; phase in turns.
 inline void fill_directions(std::span<glm::dvec2> out, double phase, bearing_function function) {
     fill_directions(out, phase, [function](double bearing) { return to_direction(function, bearing); });
 }
 
-// The same in true angles.
+// The same in true angles; phase in turns.
 inline void fill_directions(std::span<glm::dvec2> out, double phase = 0.0) {
     fill_directions(out, phase, [](double bearing) { return exact_direction(bearing); });
 }

@@ -12,9 +12,9 @@ enum class bearing_function : unsigned char { exact, quintic, cubic, octant, dia
 // What of a horizon's elevation a texture stores. Any function that grows with the elevation serves, as long as the
 // light is compared in the same one; they differ in how well they interpolate between slices and spend their bits.
 enum class quantity : unsigned char {
-    slope,  // tangent (Forsyth)
-    sine,   // sine (Lengyel)
-    angle,  // the elevation itself
+    slope,  // its tangent, rise over run (Forsyth)
+    sine,   // its sine (Lengyel)
+    angle,  // the elevation itself, in radians
 };
 
 }  // namespace bumpshadow

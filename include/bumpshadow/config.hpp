@@ -30,14 +30,17 @@
 #define BUMPSHADOW_ASSERT(condition) assert(condition)
 #endif
 
-// How hot loops are vectorized. Never guessed from the headers that happen to be installed.
+// How hot loops are vectorized: values of BUMPSHADOW_SIMD. Never guessed from the headers that happen to be installed.
 //   0  plain loops
 //   1  the vector extensions of GCC and Clang (default there); the width follows the target, e.g. -march=native
 //   2  xsimd, which the build then has to provide
 #define BUMPSHADOW_SIMD_NONE 0
+// Value of BUMPSHADOW_SIMD for the compiler's own vectors.
 #define BUMPSHADOW_SIMD_VECTOR_EXTENSIONS 1
+// Value of BUMPSHADOW_SIMD for xsimd.
 #define BUMPSHADOW_SIMD_XSIMD 2
 
+// One of these three, the same in every translation unit.
 #ifndef BUMPSHADOW_SIMD
 #if defined(__GNUC__) || defined(__clang__)
 #define BUMPSHADOW_SIMD BUMPSHADOW_SIMD_VECTOR_EXTENSIONS

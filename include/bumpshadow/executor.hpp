@@ -33,8 +33,10 @@ concept executor = requires(const T& execute, void (*body)(std::size_t)) {
 
 // Runs items one after the other on the calling thread. The default everywhere.
 struct serial {
+    // Items at a time: one.
     [[nodiscard]] constexpr int concurrency() const { return 1; }
 
+    // Runs body(0) to body(count - 1) in order.
     template <class Body>
     void operator()(std::size_t count, Body&& body) const {
         for (std::size_t i = 0; i < count; ++i) body(i);
@@ -51,8 +53,10 @@ public:
         if (count_ < 1) count_ = 1;
     }
 
+    // Threads, at least 1.
     [[nodiscard]] int concurrency() const { return count_; }
 
+    // Runs body(0) to body(count - 1), each once, and returns when all have ended.
     template <class Body>
     void operator()(std::size_t count, Body&& body) const {
         std::atomic<std::size_t> next{0};

@@ -29,18 +29,22 @@ enum class factor_form : unsigned char {
 
 // All that decoding needs. 16 texels a side are 6 KiB.
 struct factor_cube {
-    int size = 16;  // texels a side, 1 to largest_factor_cube
-    factor_form form = factor_form::biased;
+    int size = 16;                           // texels a side, 1 to largest_factor_cube
+    factor_form form = factor_form::biased;  // which decoding has to know
 };
 
+// Texels a side, at the most.
 inline constexpr int largest_factor_cube = 1024;
 
+// The cube of Lengyel's chapter: 16 texels a side, 0 stored as 128.
 [[nodiscard]] constexpr factor_cube factor_cube_as_published() { return {16, factor_form::published}; }
 
+// A cube of rgba8, linear and not sRGB.
 [[nodiscard]] inline GLM_CONSTEXPR texture_layout layout_of(const factor_cube& cube) {
     return {.format = texel_format::rgba8, .kind = texture_kind::cube, .extent = glm::ivec2(cube.size), .layers = 6};
 }
 
+// Checks the size.
 [[nodiscard]] constexpr status check(const factor_cube& cube) {
     if (cube.size <= 0) return {error::not_positive, "factor cube size", double(cube.size)};
     if (cube.size > largest_factor_cube)
@@ -54,8 +58,8 @@ inline constexpr int largest_factor_cube = 1024;
 //   t     -y  -y  +z  -z  -y  -y
 // as OpenGL (4.6, table 8.19), Direct3D and Vulkan have it.
 struct cube_coordinate {
-    int face;
-    glm::dvec2 st;
+    int face;       // 0 to 5
+    glm::dvec2 st;  // [0, 1], (0, 0) the corner of the face's first texel
 };
 
 // The direction to it, whose largest component is 1.
@@ -82,6 +86,7 @@ struct cube_coordinate {
     return factors;
 }
 
+// The byte of a factor in [-1, 1].
 [[nodiscard]] constexpr std::uint8_t to_factor8(factor_form form, double factor) {
     if (form == factor_form::published) return to_unorm8(static_cast<float>(0.5 * factor + 0.5));
     return static_cast<std::uint8_t>(128.5 + 127.0 * factor);

@@ -31,14 +31,17 @@ inline constexpr bits_of<T> infinity_bits = ((bits_of<T>(1) << (sizeof(T) == 4 ?
 
 }  // namespace finite_detail
 
+// Neither NaN nor infinite.
 template <std::floating_point T>
 [[nodiscard]] constexpr bool is_finite(const T& value) {
     return finite_detail::magnitude(value) < finite_detail::infinity_bits<T>;
 }
+// Infinite, of either sign.
 template <std::floating_point T>
 [[nodiscard]] constexpr bool is_infinite(const T& value) {
     return finite_detail::magnitude(value) == finite_detail::infinity_bits<T>;
 }
+// Not a number, of either sign.
 template <std::floating_point T>
 [[nodiscard]] constexpr bool is_nan(const T& value) {
     return finite_detail::magnitude(value) > finite_detail::infinity_bits<T>;

@@ -52,6 +52,7 @@ public:
         }
     }
 
+    // Levels, the last of one block.
     [[nodiscard]] int levels() const { return count_; }
     // Blocks of a level have 2^shift texels a side.
     [[nodiscard]] int shift(int level) const { return shift_ + level; }
@@ -60,9 +61,11 @@ public:
         const auto& l = levels_[level];
         return l.samples[(y >> shift(level)) * l.width + (x >> shift(level))];
     }
-    // Samples of the highest and of the lowest texel of the map.
+    // Sample of the highest texel of the map.
     [[nodiscard]] Sample highest() const { return highest_; }
+    // Sample of the lowest texel of the map.
     [[nodiscard]] Sample lowest() const { return lowest_; }
+    // True where a texel of the map is a hole.
     [[nodiscard]] bool has_holes() const { return has_holes_; }
 
 private:

@@ -31,9 +31,10 @@ enum class edge_mode : unsigned char {
 
 // Texels [origin, origin + extent). An empty one, the default, stands for the whole map where a function takes one.
 struct rectangle {
-    glm::ivec2 origin{0};
-    glm::ivec2 extent{0};
+    glm::ivec2 origin{0};  // texels
+    glm::ivec2 extent{0};  // texels
 
+    // True where it has no texels.
     [[nodiscard]] constexpr bool empty() const { return extent.x <= 0 || extent.y <= 0; }
 };
 
@@ -48,13 +49,13 @@ struct rectangle {
 // float; the datum matters to encode/emboss.hpp, which stores heights, and to the GPU kernel, which reads floats.
 template <height_sample Sample>
 struct height_map {
-    const Sample* samples = nullptr;
-    glm::ivec2 extent{0};             // texels
-    std::ptrdiff_t row_stride = 0;    // samples from one row to the next
-    double height_scale = 1.0;        // units a sample; for 8 and 16 bits the height of the largest sample value
-    double datum = 0.0;               // units, subtracted from every height
-    glm::dvec2 texel_size{1.0, 1.0};  // units between texel centers
-    edge_mode edge = edge_mode::repeat;
+    const Sample* samples = nullptr;     // of texel (0, 0)
+    glm::ivec2 extent{0};                // texels
+    std::ptrdiff_t row_stride = 0;       // samples from one row to the next
+    double height_scale = 1.0;           // units a sample; for 8 and 16 bits the height of the largest sample value
+    double datum = 0.0;                  // units, subtracted from every height
+    glm::dvec2 texel_size{1.0, 1.0};     // units between texel centers
+    edge_mode edge = edge_mode::repeat;  // what lies beyond the border
     std::optional<Sample> no_data = {};  // this value (or NaN) marks a hole: it does not occlude and is never shadowed
 };
 
@@ -64,7 +65,7 @@ template <height_sample Sample>
     return {.samples = samples, .extent = extent, .row_stride = extent.x};
 }
 
-// Factor from a sample to a height.
+// Factor from a sample to a height, in the unit of texel_size.
 template <height_sample Sample>
 [[nodiscard]] constexpr double unit_height(const height_map<Sample>& heights) {
     if constexpr (std::is_integral_v<Sample>)
@@ -92,6 +93,7 @@ template <height_sample Sample>
     return -1;
 }
 
+// True where a sample marks a hole of this map.
 template <height_sample Sample>
 [[nodiscard]] constexpr bool is_no_data(const height_map<Sample>& heights, Sample sample) {
     if (!heights.no_data) return false;

@@ -24,18 +24,21 @@ inline constexpr float no_horizon = std::numeric_limits<float>::lowest();
 // As a horizon map it holds slopes: tangents of the horizon's elevation, signed, one slice a direction. The same view
 // holds the distances of the occluders. Strides are in floats; 0 means tightly packed.
 struct horizon_map {
-    std::span<float> values = {};
-    glm::ivec2 extent{0};  // texels
-    int bearings = 0;      // slices
-    std::size_t row_stride = 0;
-    std::size_t slice_stride = 0;
+    std::span<float> values = {};  // from texel (0, 0) of slice 0 on
+    glm::ivec2 extent{0};          // texels
+    int bearings = 0;              // slices
+    std::size_t row_stride = 0;    // floats from one row to the next
+    std::size_t slice_stride = 0;  // floats from one slice to the next
 
+    // row_stride, or what it is where tightly packed.
     [[nodiscard]] constexpr std::size_t row_step() const {
         return row_stride != 0 ? row_stride : std::size_t(extent.x);
     }
+    // slice_stride, or what it is where tightly packed.
     [[nodiscard]] constexpr std::size_t slice_step() const {
         return slice_stride != 0 ? slice_stride : row_step() * std::size_t(extent.y);
     }
+    // Row y of a slice.
     [[nodiscard]] constexpr float* row(int bearing, int y) const {
         return values.data() + std::size_t(bearing) * slice_step() + std::size_t(y) * row_step();
     }
@@ -51,6 +54,7 @@ struct horizon_map {
     return std::size_t(extent.x) * std::size_t(extent.y) * std::size_t(bearings);
 }
 
+// Of bake_options::steps, at the most.
 inline constexpr int most_steps = 65536;
 
 // What every method that bakes horizons takes besides heights, directions and output.
@@ -74,7 +78,7 @@ struct bake_options {
     std::pmr::memory_resource* memory = nullptr;  // null: std::pmr::get_default_resource()
 };
 
-// Curvature of the base surface along a unit direction.
+// Curvature of the base surface along a unit direction, in 1/unit: kx cos^2 + ky sin^2.
 [[nodiscard]] constexpr double curvature_along(glm::dvec2 curvature, glm::dvec2 unit_direction) {
     return curvature.x * unit_direction.x * unit_direction.x + curvature.y * unit_direction.y * unit_direction.y;
 }

@@ -25,22 +25,26 @@ namespace bumpshadow {
 // [component][y][x] with the components x, y, z, so that rows shade in vectors. All three are 0 at a hole of the map.
 // Owns nothing. Strides are in floats; 0 means tightly packed.
 struct normal_map {
-    std::span<float> values = {};
-    glm::ivec2 extent{0};  // texels
-    std::size_t row_stride = 0;
-    std::size_t plane_stride = 0;
+    std::span<float> values = {};  // from x of texel (0, 0) on; each in [-1, 1]
+    glm::ivec2 extent{0};          // texels
+    std::size_t row_stride = 0;    // floats from one row to the next
+    std::size_t plane_stride = 0;  // floats from one component to the next
 
+    // row_stride, or what it is where tightly packed.
     [[nodiscard]] constexpr std::size_t row_step() const {
         return row_stride != 0 ? row_stride : std::size_t(extent.x);
     }
+    // plane_stride, or what it is where tightly packed.
     [[nodiscard]] constexpr std::size_t plane_step() const {
         return plane_stride != 0 ? plane_stride : row_step() * std::size_t(extent.y);
     }
-    // component: 0 x, 1 y, 2 z
+    // Row y of a component: 0 x, 1 y, 2 z.
     [[nodiscard]] constexpr float* row(int component, int y) const {
         return values.data() + std::size_t(component) * plane_step() + std::size_t(y) * row_step();
     }
+    // The normal of texel (x, y).
     [[nodiscard]] glm::vec3 at(int x, int y) const { return {row(0, y)[x], row(1, y)[x], row(2, y)[x]}; }
+    // Stores the normal of texel (x, y).
     void set(int x, int y, glm::vec3 normal) const {
         for (int c = 0; c < 3; ++c) row(c, y)[x] = normal[c];
     }
@@ -55,6 +59,7 @@ enum class normal_y : unsigned char {
     down,  // along growing row numbers, as in tangent space here: D3D, left-handed
     up,    // against them: GL, right-handed
 };
+// 1 for y down, -1 for y up: what a stored y is multiplied by to point along growing row numbers.
 [[nodiscard]] constexpr float sign_of(normal_y y) { return y == normal_y::down ? 1.0f : -1.0f; }
 
 // Checks a view of normals that is to have an extent.
@@ -194,11 +199,12 @@ enum class normal_form : unsigned char {
 // All that decoding needs. Flat is (128, 128, 255), as other tools write it, which is 1/255 too much in x and y: a tilt
 // of 0.3 degrees (unit) or 0.3 max_slope (derivatives).
 struct normal_encoding {
-    normal_form form = normal_form::unit;
-    normal_y y = normal_y::down;
-    float max_slope = 1.0f;  // derivatives: the steepest along an axis that is stored; beyond, it is clamped
+    normal_form form = normal_form::unit;  // what the channels hold
+    normal_y y = normal_y::down;           // which way their y points
+    float max_slope = 1.0f;  // derivatives: the steepest (rise over run) along an axis that is stored; beyond, clamped
 };
 
+// Checks max_slope.
 [[nodiscard]] inline status check(const normal_encoding& encoding) {
     if (encoding.form == normal_form::derivatives && !(encoding.max_slope > 0.0f))
         return {error::not_positive, "max_slope", double(encoding.max_slope)};

@@ -13,23 +13,29 @@ namespace bumpshadow {
 // and for the levels of rgba8 and rg8 textures alike.
 template <class Byte>
 struct basic_pixels {
-    std::span<Byte> bytes = {};
-    glm::ivec2 extent{0};
+    std::span<Byte> bytes = {};  // from texel (0, 0) on
+    glm::ivec2 extent{0};        // texels
     int channels = 4;            // bytes a texel
     std::size_t row_stride = 0;  // bytes from one row to the next; 0: tightly packed
 
+    // row_stride, or what it is where tightly packed.
     [[nodiscard]] constexpr std::size_t row_step() const {
         return row_stride != 0 ? row_stride : std::size_t(extent.x) * std::size_t(channels);
     }
+    // First byte of row y.
     [[nodiscard]] constexpr Byte* row(int y) const { return bytes.data() + std::size_t(y) * row_step(); }
+    // First byte of texel (x, y).
     [[nodiscard]] constexpr Byte* at(int x, int y) const { return row(y) + std::size_t(x) * std::size_t(channels); }
     // Bytes that `bytes` has to have.
     [[nodiscard]] constexpr std::size_t required_size() const {
         return std::size_t(extent.y - 1) * row_step() + std::size_t(extent.x) * std::size_t(channels);
     }
+    // The same picture to read from.
     constexpr operator basic_pixels<const std::byte>() const { return {bytes, extent, channels, row_stride}; }
 };
+// A picture that is written.
 using pixels = basic_pixels<std::byte>;
+// A picture that is read.
 using const_pixels = basic_pixels<const std::byte>;
 
 // Checks a picture of `extent` texels that has between `fewest` and 4 channels.

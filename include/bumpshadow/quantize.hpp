@@ -17,11 +17,15 @@ template <int Last>
     const float inside = value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
     return static_cast<int>(inside * static_cast<float>(Last) + 0.5f);
 }
+// [0, 1] to [0, 255].
 [[nodiscard]] constexpr std::uint8_t to_unorm8(float value) { return static_cast<std::uint8_t>(to_unorm<255>(value)); }
+// [0, 1] to [0, 65535].
 [[nodiscard]] constexpr std::uint16_t to_unorm16(float value) {
     return static_cast<std::uint16_t>(to_unorm<65535>(value));
 }
+// [0, 255] to [0, 1].
 [[nodiscard]] constexpr float from_unorm8(std::uint8_t value) { return static_cast<float>(value) / 255.0f; }
+// [0, 65535] to [0, 1].
 [[nodiscard]] constexpr float from_unorm16(std::uint16_t value) { return static_cast<float>(value) / 65535.0f; }
 
 // IEEE half precision: 11 significant bits, largest 65504. Ties go to even; what is larger becomes 65504, not infinity.
@@ -42,6 +46,7 @@ template <int Last>
     return static_cast<std::uint16_t>(sign | ((rounded - 0x38000000u) >> 13));
 }
 
+// The number that 16 bits of half precision stand for, exactly.
 [[nodiscard]] constexpr float from_half(std::uint16_t half) {
     const std::uint32_t sign = std::uint32_t(half & 0x8000u) << 16;
     const std::uint32_t exponent = (half >> 10) & 31u, mantissa = half & 0x3ffu;

@@ -23,6 +23,7 @@ inline constexpr std::size_t scratch_alignment = 64;
 // Adds up the bytes of a scratch block: one add<T>(count) for each later carve<T>(count), in any order.
 class scratch_layout {
 public:
+    // Room for an array of `count` values.
     template <class T>
     constexpr scratch_layout& add(std::size_t count) {
         bytes_ += (count * sizeof(T) + scratch_alignment - 1) / scratch_alignment * scratch_alignment;
@@ -101,6 +102,7 @@ private:
 // concurrency(); an executor that runs more items at a time makes the surplus wait, and the result stays the same.
 class slot_pool {
 public:
+    // Slots at the most; what runs beyond waits.
     static constexpr int max_slots = 1024;
 
     // Slots worth having for an executor's concurrency() and a number of items.
@@ -119,6 +121,7 @@ public:
         lease(const lease&) = delete;
         lease& operator=(const lease&) = delete;
         ~lease() { pool_.give_back(index_); }
+        // Which slot: 0 to count - 1.
         [[nodiscard]] int index() const { return index_; }
 
     private:
@@ -129,6 +132,7 @@ public:
         int index_;
     };
 
+    // Takes a free slot, and waits where there is none.
     [[nodiscard]] lease acquire() {
         for (;;) {
             for (int word = 0; word * 64 < count_; ++word) {

@@ -17,7 +17,7 @@ namespace bumpshadow {
 
 // Why a call could not be carried out.
 enum class error : unsigned char {
-    none,
+    none,            // all is well
     missing,         // a pointer or span that is needed is empty
     not_positive,    // has to be above zero
     not_finite,      // NaN or infinite
@@ -31,28 +31,35 @@ enum class error : unsigned char {
 
 // Text of a status: a C string in a fixed buffer, so that reporting an error cannot fail itself.
 struct status_text {
-    char characters[200];
+    char characters[200];  // ends with a 0
 
+    // The text.
     [[nodiscard]] const char* c_str() const { return characters; }
+    // The text without the 0.
     [[nodiscard]] std::string_view view() const { return characters; }
 };
 
 // Result of a call that can fail in ways a program has to expect: bad sizes, bad numbers, no memory.
 // True when all is well. When it is not, nothing has been written to the outputs unless the function says otherwise.
-//   argument, value, limit: the offending argument by name, what it was, and what it should have been
-//   texel: where, for errors that have a place in the map; (-1, -1) otherwise
 class [[nodiscard]] status {
 public:
     constexpr status() = default;
+    // An error. argument: a literal, or text that outlives the status.
     constexpr status(error code, const char* argument, double value = 0.0, double limit = 0.0,
                      glm::ivec2 texel = glm::ivec2(-1))
         : code_(code), argument_(argument), value_(value), limit_(limit), texel_(texel) {}
 
+    // True when all is well.
     [[nodiscard]] constexpr explicit operator bool() const { return code_ == error::none; }
+    // What is wrong.
     [[nodiscard]] constexpr error code() const { return code_; }
+    // The offending argument by name.
     [[nodiscard]] constexpr const char* argument() const { return argument_; }
+    // What it was, in its own unit.
     [[nodiscard]] constexpr double value() const { return value_; }
+    // What it should have been, in the same.
     [[nodiscard]] constexpr double limit() const { return limit_; }
+    // Where, for errors that have a place in the map; (-1, -1) otherwise.
     [[nodiscard]] constexpr glm::ivec2 texel() const { return texel_; }
 
     // One line for a person, for example "texel_size.x is -1 but has to be positive".

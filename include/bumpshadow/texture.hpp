@@ -15,12 +15,14 @@ namespace bumpshadow {
 // r8 is R8_UNORM, r16f R16_SFLOAT, bc1 four channels of which the fourth is 1, bc4 one unsigned channel.
 enum class texel_format : unsigned char { r8, rg8, rgba8, r16, rgba16, r16f, rgba16f, r32f, rgba32f, rgb565, bc1, bc4 };
 
+// Sizes of a format.
 struct format_traits {
-    int channels;
+    int channels;     // 1 to 4
     int block;        // texels along a side of what is stored together
     int block_bytes;  // bytes of that
 };
 
+// The sizes of each format.
 [[nodiscard]] constexpr format_traits traits_of(texel_format format) {
     switch (format) {
         case texel_format::r8: return {1, 1, 1};
@@ -39,11 +41,11 @@ struct format_traits {
     return {0, 1, 0};
 }
 
-// flat: one 2D image; array: several; cube: six, in the order +x -x +y -y +z -z of GL, Vulkan and D3D;
-// volume: one 3D image.
+// Shape of a texture. flat: one 2D image; array: several; cube: six, in the order +x -x +y -y +z -z of GL, Vulkan and
+// D3D; volume: one 3D image.
 enum class texture_kind : unsigned char { flat, array, cube, volume };
 
-// Extent of a texture's mip level.
+// Extent of a texture's mip level along one axis, in texels: halved, rounded down, at least 1.
 [[nodiscard]] constexpr int mip_extent(int extent, int level) { return (std::max)(1, extent >> level); }
 
 // Levels of the full mip chain of an extent.
@@ -57,31 +59,36 @@ enum class texture_kind : unsigned char { flat, array, cube, volume };
 // level, its image; an image is [slice][row of blocks][block]. A volume has one layer, whose levels halve the depth,
 // too.
 struct texture_layout {
-    texel_format format = texel_format::r8;
-    texture_kind kind = texture_kind::flat;
-    glm::ivec2 extent{0};  // texels of level 0
-    int depth = 1;         // slices of a volume's level 0
-    int layers = 1;        // of an array; 6 for a cube
-    int mips = 1;
+    texel_format format = texel_format::r8;  // of every level
+    texture_kind kind = texture_kind::flat;  // decides which of depth and layers may be above 1
+    glm::ivec2 extent{0};                    // texels of level 0
+    int depth = 1;                           // slices of a volume's level 0
+    int layers = 1;                          // of an array; 6 for a cube
+    int mips = 1;                            // levels, that of the full extent included
 
+    // Texels of a level.
     [[nodiscard]] GLM_CONSTEXPR glm::ivec2 level_extent(int level) const {
         return {mip_extent(extent.x, level), mip_extent(extent.y, level)};
     }
+    // Slices of a level of a volume.
     [[nodiscard]] constexpr int level_depth(int level) const { return mip_extent(depth, level); }
     // Bytes from one row of blocks to the next.
     [[nodiscard]] constexpr std::size_t row_bytes(int level) const {
         const format_traits f = traits_of(format);
         return std::size_t((mip_extent(extent.x, level) + f.block - 1) / f.block) * std::size_t(f.block_bytes);
     }
+    // Bytes of one slice, layer or face of a level.
     [[nodiscard]] constexpr std::size_t slice_bytes(int level) const {
         const int block = traits_of(format).block;
         return row_bytes(level) * std::size_t((mip_extent(extent.y, level) + block - 1) / block);
     }
+    // Bytes of one layer with all its levels.
     [[nodiscard]] constexpr std::size_t layer_bytes() const {
         std::size_t bytes = 0;
         for (int level = 0; level < mips; ++level) bytes += slice_bytes(level) * std::size_t(level_depth(level));
         return bytes;
     }
+    // Bytes of the whole texture.
     [[nodiscard]] constexpr std::size_t required_size() const { return layer_bytes() * std::size_t(layers); }
     // Bytes before slice `slice` of a level of a layer.
     [[nodiscard]] constexpr std::size_t offset(int layer, int level, int slice = 0) const {
@@ -98,15 +105,19 @@ struct texture_layout {
 // Bytes with their layout; owns nothing. Producers write through `bytes`, readers take the const form.
 template <class Byte>
 struct basic_texture {
-    std::span<Byte> bytes = {};
-    texture_layout layout = {};
+    std::span<Byte> bytes = {};  // layout.required_size() of them, or more
+    texture_layout layout = {};  // where in them what lies
 
+    // First byte of a layer's level, or of slice `index` of it.
     [[nodiscard]] constexpr Byte* slice(int layer, int level, int index = 0) const {
         return bytes.data() + layout.offset(layer, level, index);
     }
+    // The same texture to read from.
     constexpr operator basic_texture<const std::byte>() const { return {bytes, layout}; }
 };
+// A texture that is written.
 using texture = basic_texture<std::byte>;
+// A texture that is read.
 using const_texture = basic_texture<const std::byte>;
 
 // Checks a layout, and that the bytes are enough for it.

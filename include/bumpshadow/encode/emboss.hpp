@@ -35,6 +35,7 @@ struct emboss {
     double lowest = 0.0;  // height, in the unit of texel_size
     double scale = 0.5;   // 1 / unit
 };
+// Byte that stands for 0.5, the highest height.
 inline constexpr int emboss_half = 128;
 
 // Either of the two textures: r8.
@@ -160,9 +161,9 @@ template <height_sample Sample, executor Executor = serial>
 //   shader::bumpshadow_emboss_shift(light position - corner position, amount)
 // A far light has one shift for all; a lambda that returns it serves.
 struct quad_shift {
-    glm::vec2 corners[4];
+    glm::vec2 corners[4];  // their shifts, in the unit of `amount`: texels where draw_relief and draw_emboss take them
 
-    // The diagonal runs from (1, 0) to (0, 1).
+    // The shift at uv. The diagonal runs from (1, 0) to (0, 1).
     [[nodiscard]] glm::vec2 operator()(glm::vec2 uv) const {
         if (uv.x + uv.y <= 1.0f)
             return corners[0] + uv.x * (corners[1] - corners[0]) + uv.y * (corners[2] - corners[0]);

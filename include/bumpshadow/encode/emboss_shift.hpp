@@ -25,8 +25,8 @@ namespace bumpshadow {
 //   smallest  where the relief begins to show: half of the texels that change by a step of 8 bits or more for the
 //             largest shift do so.
 struct emboss_shift_range {
-    float smallest = 0.0f;
-    float largest = 0.0f;
+    float smallest = 0.0f;  // texels
+    float largest = 0.0f;   // texels
 };
 
 // Measures both along x and along y, up to `limit` texels and half of the map; the largest is that where nothing ends

@@ -38,21 +38,22 @@ inline constexpr float fourier_bound = 0.318309886f;
 
 // What the smallest and the largest stored number stand for.
 struct fourier_range {
-    float low = -fourier_bound, high = fourier_bound;
+    float low = -fourier_bound, high = fourier_bound;  // in the stored quantity over what stands for 1
 };
 
 // All that decoding needs. Coefficients are counted: constant, sin t, cos t, sin 2t, cos 2t ..., with x = sin t and
 // y = cos t of the bearing's direction; all but the constant are half of what the series has.
 struct fourier {
     int coefficients = 5;  // 3, 5, 7 or 9: 4, 5, 8 or 9 bytes a texel of 8 bits
-    horizon_scale scale;
-    int bits = 8;  // or 16
+    horizon_scale scale;   // quantity, and the slope that stands for 1
+    int bits = 8;          // or 16
     // Signed square roots are stored: finer near 0, coarser far from it, and 6 more operations for 5 coefficients.
     // Wrong (lit or shadowed) in 8 bits, mean of six maps: 4.27 % of lights with neither, 4.21 % with tighten_ranges,
     // 4.20 % with both.
     bool square_root = false;
     // Widens ranges that hold 0 a little, so that 0 is one of the numbers stored: else flat texels get a horizon.
     bool exact_zero = true;
+    // Range of each coefficient, in the order above; those beyond `coefficients` do not matter.
     std::array<fourier_range, most_coefficients> ranges = {fourier_range{0.0f, 1.0f}};
 };
 
@@ -65,10 +66,12 @@ struct fourier {
     posted.ranges.fill({-1.0f, 1.0f});
     return posted;
 }
-// Its edge of the shadow: clamp(c + k (light - horizon), 0, 1), centered.
+// Its edge of the shadow, clamp(c + k (light - horizon), 0, 1) in sines: 1 / k is its width.
 inline constexpr float fourier_posted_k = 20.0f;
+// c of the same: the edge is centered.
 inline constexpr float fourier_posted_c = 0.5f;
 
+// Checks the number of coefficients, the bits, the ranges and the scale.
 [[nodiscard]] inline status check(const fourier& encoding) {
     const int n = encoding.coefficients;
     if (n != 3 && n != 5 && n != 7 && n != 9) return {error::not_supported, "coefficients", double(n)};
@@ -84,6 +87,7 @@ inline constexpr float fourier_posted_c = 0.5f;
 
 // Textures, all flat: of four channels, and a last one of one channel for the constant of 5 and 9 coefficients.
 [[nodiscard]] constexpr int texture_count(const fourier& encoding) { return (encoding.coefficients + 3) / 4; }
+// Texture fetches of a horizon: one of each texture.
 [[nodiscard]] constexpr int fetches(const fourier& encoding) { return texture_count(encoding); }
 
 // Coefficients in the channels of a texture; -1: none, stored as 1.
@@ -94,7 +98,8 @@ inline constexpr float fourier_posted_c = 0.5f;
     return {0, -1, -1, -1};
 }
 
-// index: of the texture, 0 to texture_count(encoding) - 1
+// Layout of a texture: rgba8 or rgba16, or r8 or r16 for a last one of one channel.
+//   index: of the texture, 0 to texture_count(encoding) - 1
 [[nodiscard]] constexpr texture_layout layout_of(const fourier& encoding, glm::ivec2 extent, int mips = 1,
                                                  int index = 0) {
     const bool one = channels_of(encoding, index)[1] < 0;
@@ -124,6 +129,7 @@ struct fourier_decoding {
     float constant_scale, constant_offset;  // of the one of one channel
 };
 
+// What decoding takes, from the ranges as they are stored.
 [[nodiscard]] inline fourier_decoding decoding_of(const fourier& encoding) {
     fourier_decoding decoding{};
     const fourier_range constant = stored_range(encoding, 0);
@@ -330,13 +336,14 @@ template <executor Executor = serial>
     return {};
 }
 
-// Both without mips.
+// pack_fourier for a map without mips.
 template <executor Executor = serial>
 [[nodiscard]] status pack_fourier(const horizon_map& slopes, std::span<const glm::dvec2> directions,
                                   const fourier& encoding, const pack_options& options, std::span<const texture> out,
                                   Executor&& execute = {}) {
     return pack_fourier(std::span<const horizon_map>(&slopes, 1), directions, encoding, options, out, execute);
 }
+// tighten_ranges for a map without mips.
 template <executor Executor = serial>
 [[nodiscard]] status tighten_ranges(const horizon_map& slopes, std::span<const glm::dvec2> directions,
                                     fourier& encoding, const pack_options& options, Executor&& execute = {}) {

@@ -13,8 +13,10 @@
 
 namespace bumpshadow {
 
+// Of a series: the constant, and sine and cosine of four bands.
 inline constexpr std::size_t most_coefficients = 9;
 
+// The terms of a series in one direction; no units.
 using fourier_terms = std::array<double, most_coefficients>;
 
 // 1, sin t, cos t, sin 2t, cos 2t ... of a direction of any length but 0, with x = sin t and y = cos t.

@@ -12,14 +12,16 @@ namespace bumpshadow {
 
 // The quantity with the slope that stands for 1. Horizons steeper than max_slope are stored as 1, those below 0 as 0.
 struct horizon_scale {
-    quantity stored = quantity::slope;
-    float max_slope =
-        4.0f;  // at least smallest_max_slope; infinity is allowed for sine and angle: all elevations up to 90 degrees
+    quantity stored = quantity::slope;  // what is stored of an elevation
+    // Tangent of the elevation that stands for 1, at least smallest_max_slope. Infinity is allowed for sine and angle:
+    // all elevations up to 90 degrees.
+    float max_slope = 4.0f;
 };
 
 // The inverse of a smaller one, times a light straight up, would overflow.
 inline constexpr float smallest_max_slope = 1e-18f;
 
+// Checks max_slope.
 [[nodiscard]] inline status check(const horizon_scale& scale) {
     if (!(scale.max_slope > 0.0f)) return {error::not_positive, "max_slope", double(scale.max_slope)};
     if (!(scale.max_slope >= smallest_max_slope))
@@ -29,7 +31,7 @@ inline constexpr float smallest_max_slope = 1e-18f;
     return {};
 }
 
-// The quantity of a slope, not scaled. Any finite slope, and infinity.
+// The quantity of a slope, not scaled: the slope itself, its sine, or radians. Any finite slope, and infinity.
 [[nodiscard]] inline float quantity_of_slope(quantity stored, float slope) {
     switch (stored) {
         case quantity::sine: {

@@ -34,13 +34,14 @@ namespace bumpshadow {
     return levels;
 }
 
+// How mips are made.
 struct mip_options {
     // Keep the share of shadowed texels that level 0 has, for every elevation of the light: averages alone lose the
     // steep horizons, and shadows with them, as averages of alpha lose what is tested against it.
     bool keep_distribution = true;
     // As in bake_options. Sizes: mip_scratch_size.
     std::span<std::byte> scratch = {};
-    std::pmr::memory_resource* memory = nullptr;
+    std::pmr::memory_resource* memory = nullptr;  // null: std::pmr::get_default_resource()
 };
 
 namespace reduce_detail {

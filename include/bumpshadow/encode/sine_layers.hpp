@@ -26,10 +26,11 @@ namespace bumpshadow {
 
 // All that decoding needs. Published are sines of 0 to 90 degrees; slopes up to 4 interpolate better.
 struct sine_layers {
-    horizon_scale scale = {quantity::sine, std::numeric_limits<float>::infinity()};
+    horizon_scale scale = {quantity::sine, std::numeric_limits<float>::infinity()};  // as published
     bool separate = false;  // two flat textures in place of an array of two layers
 };
 
+// Textures: one array, or two flat ones.
 [[nodiscard]] constexpr int texture_count(const sine_layers& encoding) { return encoding.separate ? 2 : 1; }
 // Fetches of a horizon, one more where the factors come from a cube.
 [[nodiscard]] constexpr int fetches(const sine_layers&) { return 2; }
@@ -43,8 +44,9 @@ struct sine_layers {
             .mips = mips};
 }
 
-// Directions whose sines the published method averages, five for each channel.
+// Directions, evenly around, whose sines the published method averages.
 inline constexpr int sine_layers_directions = 32;
+// How many of them make a channel.
 inline constexpr int sine_layers_average = 5;
 
 namespace sine_layers_detail {
@@ -144,13 +146,14 @@ template <executor Executor = serial>
         });
 }
 
-// Both without mips.
+// pack_sine_layers for a map without mips.
 template <executor Executor = serial>
 [[nodiscard]] status pack_sine_layers(const horizon_map& slopes, std::span<const glm::dvec2> directions,
                                       const sine_layers& encoding, const pack_options& options,
                                       std::span<const texture> out, Executor&& execute = {}) {
     return pack_sine_layers(std::span<const horizon_map>(&slopes, 1), directions, encoding, options, out, execute);
 }
+// pack_sine_layers_averaged for a map without mips.
 template <executor Executor = serial>
 [[nodiscard]] status pack_sine_layers_averaged(const horizon_map& slopes, std::span<const glm::dvec2> directions,
                                                const sine_layers& encoding, const pack_options& options,

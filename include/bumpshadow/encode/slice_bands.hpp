@@ -27,29 +27,30 @@ namespace bumpshadow {
 // What happened to the samples that a pack read.
 struct pack_report {
     std::size_t clamped = 0;  // steeper than max_slope, stored as it
-    float steepest = 0.0f;    // slope; 0 where none is above 0
+    float steepest = 0.0f;    // slope (tangent) of the steepest; 0 where none is above 0
 };
 
+// What every function that packs horizons takes besides them.
 struct pack_options {
-    slice_fit fit = slice_fit::least_squares;
-    pack_report* report = nullptr;
+    slice_fit fit = slice_fit::least_squares;  // how stored slices come of the horizons baked
+    pack_report* report = nullptr;             // where to count what was clamped; null: nowhere
     // Row of level 0 of the texture that the horizons' first row is, so that a map may be packed in bands of rows, each
     // baked with bake_options::region: memory is then O(width * directions * rows of the band). The bytes are those of
     // packing the whole map. Looked at by the functions named pack_; 0 for several levels; for bc4 a multiple of 4.
     int first_row = 0;
     // As in bake_options. Sizes: slice_scratch_size.
     std::span<std::byte> scratch = {};
-    std::pmr::memory_resource* memory = nullptr;
+    std::pmr::memory_resource* memory = nullptr;  // null: std::pmr::get_default_resource()
 };
 
 // Rows of stored values in [0, 1], all slices of them; valid during the call that hands them over.
 struct slice_rows {
-    int y = 0;      // first row
-    int count = 0;  // rows
-    const float* values = nullptr;
-    std::size_t row_step = 0, slice_step = 0;
+    int y = 0;                                 // first row
+    int count = 0;                             // rows
+    const float* values = nullptr;             // of slice 0 of the first row
+    std::size_t row_step = 0, slice_step = 0;  // floats from one to the next
 
-    // r: 0 to count - 1
+    // Values of a row of a slice. r: 0 to count - 1
     [[nodiscard]] const float* row(int slice, int r) const {
         return values + std::size_t(slice) * slice_step + std::size_t(r) * row_step;
     }

@@ -26,15 +26,18 @@ namespace bumpshadow {
 //   one slice    for all bearings of the arc alike; with arc 0 for a light whose bearing is fixed
 // Fits do not look at horizons in directions beyond the arc.
 struct slice_set {
-    int count = 8;
-    double phase = 0.0;
-    bearing_function function = bearing_function::cubic;
-    double arc = 1.0;  // smallest_arc to 1; of one slice 0 to 1
+    int count = 8;                                        // slices, 1 to most_slices
+    double phase = 0.0;                                   // bearing of the first one, in turns
+    bearing_function function = bearing_function::cubic;  // that the shader looks them up by
+    double arc = 1.0;                                     // in turns, smallest_arc to 1; of one slice 0 to 1
 };
 
+// Slices of an encoding, at the most.
 inline constexpr int most_slices = 4096;
-inline constexpr double smallest_arc = 1e-6;  // bearings are floats in shaders
+// Turns. Bearings are floats in shaders.
+inline constexpr double smallest_arc = 1e-6;
 
+// How the slices that are stored come of the horizons that were baked.
 enum class slice_fit : unsigned char {
     point,          // the horizon in the slice's own direction, which has to be among those baked
     least_squares,  // what interpolates closest to all horizons baked; 32 directions or more are worth having
@@ -43,6 +46,7 @@ enum class slice_fit : unsigned char {
     least_angle,
 };
 
+// Checks count, phase and arc.
 [[nodiscard]] inline status check(const slice_set& slices) {
     if (slices.count <= 0) return {error::not_positive, "slices", double(slices.count)};
     if (slices.count > most_slices) return {error::out_of_range, "slices", double(slices.count), double(most_slices)};
@@ -54,9 +58,10 @@ enum class slice_fit : unsigned char {
     return {};
 }
 
+// True where the slices stand over a part of the turn.
 [[nodiscard]] constexpr bool is_arc(const slice_set& slices) { return slices.arc < 1.0; }
 
-// Bearing of slice i: not brought into [0, 1).
+// Bearing of slice i in turns: not brought into [0, 1).
 [[nodiscard]] constexpr double bearing_of(const slice_set& slices, int i) {
     if (!is_arc(slices)) return slices.phase + double(i) / slices.count;
     return slices.count > 1 ? slices.phase + slices.arc * i / (slices.count - 1) : slices.phase;

@@ -20,6 +20,7 @@
 
 namespace bumpshadow {
 
+// Which slices lie in which layer.
 enum class slice_grouping : unsigned char {
     four,         // slices 4 l ... 4 l + 3 in layer l: two fetches; the count is a multiple of 4
     overlapping,  // slices 3 l ... 3 l + 3 in layer l, the last one being the next layer's first: one fetch, 4/3 of the
@@ -28,9 +29,9 @@ enum class slice_grouping : unsigned char {
 
 // Slices of the whole turn: their arc is 1. Decoding: shader/slice_layers.h.
 struct slice_layers {
-    slice_set slices = {};
-    horizon_scale scale = {};
-    slice_grouping grouping = slice_grouping::four;
+    slice_set slices = {};                           // of the whole turn
+    horizon_scale scale = {};                        // quantity, and the slope that stands for 1
+    slice_grouping grouping = slice_grouping::four;  // and so one or two fetches
 };
 
 // Slices that a layer adds.
@@ -38,6 +39,7 @@ struct slice_layers {
     return grouping == slice_grouping::four ? 4 : 3;
 }
 
+// Checks slices, scale and that the layers are full.
 [[nodiscard]] inline status check(const slice_layers& encoding) {
     if (status s = check(encoding.slices); !s) return s;
     if (status s = check(encoding.scale); !s) return s;
@@ -47,6 +49,7 @@ struct slice_layers {
     return {};
 }
 
+// An array of rgba8 of the extent of the horizons, slices / slices_per_layer layers.
 [[nodiscard]] constexpr texture_layout layout_of(const slice_layers& encoding, glm::ivec2 extent, int mips = 1) {
     return {texel_format::rgba8,
             texture_kind::array,
@@ -56,6 +59,7 @@ struct slice_layers {
             mips};
 }
 
+// Texture fetches of a horizon.
 [[nodiscard]] constexpr int fetches(const slice_layers& encoding) {
     return encoding.grouping == slice_grouping::four ? 2 : 1;
 }

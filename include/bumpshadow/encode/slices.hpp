@@ -218,7 +218,7 @@ template <executor Executor = serial>
 
 // max_slope for a map: its steepest horizon, but at most `most`, since light above that is hardly ever shadowed and the
 // rest gains precision. A map without horizons to speak of gets `most`.
-// Source: Forsyth, Self-shadowing Bumpmap using 3D Texture Hardware, section 4.1.
+// Source: Forsyth 2002, Self-shadowing Bumpmap using 3D Texture Hardware, section 4.1.
 [[nodiscard]] inline float suggest_max_slope(const horizon_map& slopes, float most = 4.0f) {
     const float steepest = steepest_slope(slopes);
     return steepest >= smallest_max_slope && steepest < most ? steepest : most;

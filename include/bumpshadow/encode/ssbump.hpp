@@ -33,6 +33,7 @@
 
 namespace bumpshadow {
 
+// What darkens the masks besides the normal.
 enum class mask_occlusion : unsigned char {
     none,         // masks are the normal in the basis, nothing else
     ambient,      // all three times the visible share of the lobe around +z: ambient occlusion
@@ -47,10 +48,11 @@ struct ssbump {
     // and 3 to 12 degrees: too much for reflections.
     texel_format format = texel_format::rgba8;
     normal_y y = normal_y::down;  // down: left-handed, as the Source engine and its tools have it; up: right-handed
-    mask_occlusion occlusion = mask_occlusion::directional;
+    mask_occlusion occlusion = mask_occlusion::directional;  // whether and how the horizons darken the masks
     bool detail = false;  // scaled so that a flat, unshadowed texel is 0.5 in place of 1 / sqrt(3): a detail texture
 };
 
+// One flat texture of the extent of the normals, linear and not sRGB.
 [[nodiscard]] constexpr texture_layout layout_of(const ssbump& encoding, glm::ivec2 extent, int mips = 1) {
     return {.format = encoding.format, .extent = extent, .mips = mips};
 }

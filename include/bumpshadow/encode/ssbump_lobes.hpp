@@ -26,6 +26,7 @@
 
 namespace bumpshadow {
 
+// Directions of a horizon map that masks are made of, at the most.
 inline constexpr int most_lobe_bearings = 256;
 
 namespace lobe_detail {
@@ -58,7 +59,7 @@ struct open_integrals {
 
 // Bearings of a horizon map with their shares of the full turn: half the way to either neighbor.
 struct lobe_bearings {
-    int count = 0;
+    int count = 0;                                         // bearings; what follows has more room
     std::array<glm::dvec2, most_lobe_bearings> direction;  // unit length
     std::array<double, most_lobe_bearings> share;          // of a turn; they add up to 1
 };
@@ -114,7 +115,8 @@ public:
         }
     }
 
-    // Adds what bearing i contributes to the shares of `count` texels.
+    // Adds what bearing i contributes to the shares of `count` texels. slopes: tangents, at least 0; across, up: A and
+    // B of them; shares: 0 to 1 when all bearings are in.
     void add(int i, const float* slopes, const float* across, const float* up, int count, float* shares) const {
         const term t = term_[std::size_t(i)];
         for (int x = 0; x < count; ++x) {

@@ -21,7 +21,7 @@
 #include <bumpshadow/texture.hpp>
 
 // Slices of scaled horizons, one channel, that the texture unit interpolates along the bearing.
-// Source: Forsyth, Self-shadowing Bumpmap using 3D Texture Hardware, sections 3 to 5.
+// Source: Forsyth 2002, Self-shadowing Bumpmap using 3D Texture Hardware, sections 3 to 5.
 
 namespace bumpshadow {
 
@@ -38,12 +38,13 @@ namespace bumpshadow {
 // Over an arc of bearings (slice_set) arc_coordinate_of has the constants: a volume is clamped along its third
 // coordinate in place of repeating, and has no mips; an array has them.
 struct tangent_volume {
-    slice_set slices = {};
-    horizon_scale scale = {};
+    slice_set slices = {};                     // bearings that are stored
+    horizon_scale scale = {};                  // quantity, and the slope that stands for 1
     texel_format format = texel_format::r8;    // r8, r16, r16f, bc4
     texture_kind kind = texture_kind::volume;  // or array; flat for a single slice
 };
 
+// Checks slices, scale, format and kind.
 [[nodiscard]] inline status check(const tangent_volume& encoding) {
     if (status s = check(encoding.slices); !s) return s;
     if (status s = check(encoding.scale); !s) return s;
@@ -56,6 +57,7 @@ struct tangent_volume {
     return {};
 }
 
+// One texture of the extent of the horizons, a slice or a layer for each of the slices.
 [[nodiscard]] constexpr texture_layout layout_of(const tangent_volume& encoding, glm::ivec2 extent, int mips = 1) {
     const int count = encoding.slices.count;
     return {.format = encoding.format,
@@ -66,6 +68,7 @@ struct tangent_volume {
             .mips = mips};
 }
 
+// Texture fetches of a horizon.
 [[nodiscard]] constexpr int fetches(const tangent_volume& encoding) {
     return encoding.kind == texture_kind::array ? 2 : 1;
 }
@@ -78,7 +81,9 @@ struct tangent_volume {
 // Where a bearing lies in the texture of an arc: scale * fract(bearing - start) + offset. The wrap of fract lies half
 // way between the ends of the arc, on its far side.
 struct arc_coordinate {
-    float start = 0.0f, scale = 0.0f, offset = 0.0f;
+    float start = 0.0f;   // turns
+    float scale = 0.0f;   // of a volume coordinates a turn, of an array layers a turn
+    float offset = 0.0f;  // a coordinate, or a layer
 };
 
 // Of a volume the third coordinate, of an array the position among its layers; the arc is below 1. The position of a
@@ -254,18 +259,18 @@ template <executor Executor = serial>
     return {};
 }
 
-// kbytes (1024) of a texture without mips.
+// Size of a texture without mips, in units of 1024 bytes.
 [[nodiscard]] constexpr double texture_kbytes(glm::ivec2 extent, int slices, double bits_a_texel) {
     return double(extent.x) * double(extent.y) * double(slices) * bits_a_texel / 8.0 / 1024.0;
 }
 
 // A line of Forsyth's table of memory.
 struct memory_line {
-    const char* type;
-    const char* format;
-    glm::ivec2 extent;
-    int slices;
-    double kbytes;
+    const char* type;    // what the texture is for
+    const char* format;  // as he calls it
+    glm::ivec2 extent;   // texels
+    int slices;          // 1 but for horizons
+    double kbytes;       // of 1024 bytes
 };
 
 // The table of his section 5, computed: what horizons cost beside the other textures of a surface. (512, 512) gives

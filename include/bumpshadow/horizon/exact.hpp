@@ -29,11 +29,10 @@
 namespace bumpshadow {
 
 // The horizon of one texel in one direction.
-//   slope: tangent of its elevation, signed; double(no_horizon) where nothing occludes
-//   distance: how far the occluder is, in the unit of texel_size, the nearest where several are equally high; 0 where
-//     the surface at the texel itself is the horizon, infinity where the horizon is infinitely far or absent
 struct horizon_sample {
-    double slope = double(no_horizon);
+    double slope = double(no_horizon);  // tangent of its elevation, signed; double(no_horizon) where nothing occludes
+    // How far the occluder is, in the unit of texel_size, the nearest where several are equally high; 0 where the
+    // surface at the texel itself is the horizon, infinity where the horizon is infinitely far or absent.
     double distance = std::numeric_limits<double>::infinity();
 };
 

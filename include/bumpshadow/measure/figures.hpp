@@ -13,7 +13,7 @@ namespace bumpshadow {
 
 // Where a measurement takes its memory from: `scratch` if it is not empty, else the resource.
 struct measure_options {
-    std::span<std::byte> scratch = {};
+    std::span<std::byte> scratch = {};            // sizes: elevation_scratch_size
     std::pmr::memory_resource* memory = nullptr;  // null: std::pmr::get_default_resource()
 };
 

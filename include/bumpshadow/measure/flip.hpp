@@ -31,12 +31,14 @@
 
 namespace bumpshadow {
 
+// How the pictures are looked at, and where memory comes from.
 struct flip_options {
-    // Of visual angle, 1 to 500. As published: 0.7 m away from a screen of 3840 pixels that is 0.7 m wide.
+    // Pixels a degree of visual angle, 1 to 500. As published: 0.7 m away from a screen of 3840 pixels that is 0.7 m
+    // wide.
     float pixels_per_degree = 67.02f;
     // As in bake_options. Sizes: flip_scratch_size.
     std::span<std::byte> scratch = {};
-    std::pmr::memory_resource* memory = nullptr;
+    std::pmr::memory_resource* memory = nullptr;  // null: std::pmr::get_default_resource()
 };
 
 namespace flip_detail {

@@ -22,6 +22,7 @@
 
 namespace bumpshadow {
 
+// Elevations of a light_grid, at the most.
 inline constexpr std::size_t most_elevations = 64;
 
 // Lights far away: each elevation in each direction.

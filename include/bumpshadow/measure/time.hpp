@@ -9,18 +9,19 @@
 
 namespace bumpshadow {
 
-// Seconds of several runs of the same.
+// Times of several runs of the same.
 struct time_figures {
-    double median = 0.0, least = 0.0, most = 0.0;
-    int repeats = 0;
+    double median = 0.0, least = 0.0, most = 0.0;  // seconds
+    int repeats = 0;                               // runs that count
 };
 
 // Two bodies against each other.
 struct time_ratio {
-    time_figures first, second;
-    double ratio = 0.0;  // time of the first over that of the second: the median over pairs of neighboring runs
+    time_figures first, second;  // of one of the two bodies
+    double ratio = 0.0;          // time of the first over that of the second: the median over pairs of neighboring runs
 };
 
+// Runs that are timed, at the most.
 inline constexpr int most_repeats = 1000;
 
 namespace measure_detail {

@@ -24,6 +24,7 @@
 
 namespace bumpshadow {
 
+// What a light is, as glTF has it.
 enum class light_kind : unsigned char {
     directional,  // far away
     point,        // at a position; falls off with the square of the distance
@@ -32,18 +33,19 @@ enum class light_kind : unsigned char {
 
 // Positions and directions are in the space in which the surface's points and frames are.
 struct light_source {
-    light_kind kind = light_kind::directional;
-    glm::vec3 direction{0.0f, 0.0f, 1.0f};  // directional: towards the light, any length
-    glm::vec3 position{0.0f, 0.0f, 1.0f};   // point, spot
-    glm::vec3 axis{0.0f, 0.0f, -1.0f};      // spot: the way it shines, any length
+    light_kind kind = light_kind::directional;  // says which of the others count
+    glm::vec3 direction{0.0f, 0.0f, 1.0f};      // directional: towards the light, any length
+    glm::vec3 position{0.0f, 0.0f, 1.0f};       // point, spot
+    glm::vec3 axis{0.0f, 0.0f, -1.0f};          // spot: the way it shines, any length
     // Spot: full within the inner angle from the axis, nothing outside the outer one, between them the square of a ramp
     // in the cosine. Source: glTF extension KHR_lights_punctual.
-    float inner_cosine = 0.9f;
-    float outer_cosine = 0.8f;
-    // What a white surface facing the light sends back; for point and spot lights at distance 1.
+    float inner_cosine = 0.9f;  // above outer_cosine, at most 1
+    float outer_cosine = 0.8f;  // spot: cosine of the angle from the axis at which nothing is left, -1 or more
+    // What a white surface facing the light sends back, linear RGB; for point and spot lights at distance 1.
     glm::vec3 color{1.0f};
 };
 
+// Checks what the light's kind takes.
 [[nodiscard]] inline status check(const light_source& light) {
     if (!is_finite(light.color)) return {error::not_finite, "light.color", double(light.color.x)};
     if (light.kind == light_kind::directional) {
@@ -64,19 +66,20 @@ struct light_source {
 
 // A pixel's place on the surface. The frame is orthonormal; the maps' tangent space is (tangent, bitangent, normal).
 struct surface_point {
-    glm::vec2 uv{0.0f};
-    glm::vec3 position{0.0f};
-    glm::vec3 tangent{1.0f, 0.0f, 0.0f};
-    glm::vec3 bitangent{0.0f, 1.0f, 0.0f};
-    glm::vec3 normal{0.0f, 0.0f, 1.0f};
+    glm::vec2 uv{0.0f};                     // texture coordinates
+    glm::vec3 position{0.0f};               // in the space of the lights
+    glm::vec3 tangent{1.0f, 0.0f, 0.0f};    // unit vector along +u there
+    glm::vec3 bitangent{0.0f, 1.0f, 0.0f};  // along +v, the way of growing row numbers
+    glm::vec3 normal{0.0f, 0.0f, 1.0f};     // out of the surface
 };
 
 // The map itself, one pixel a texel: pixel (x, y) is texel (x, y), its position (x, y, 0) * texel_size. A curved
 // surface is any callable that takes a pixel (glm::ivec2) and gives its surface_point.
 struct flat_surface {
-    glm::ivec2 extent{0};
-    glm::vec2 texel_size{1.0f};
+    glm::ivec2 extent{0};        // texels, and pixels
+    glm::vec2 texel_size{1.0f};  // units between texel centers
 
+    // The surface at a pixel.
     [[nodiscard]] surface_point operator()(glm::ivec2 pixel) const {
         surface_point point;
         point.uv = {(float(pixel.x) + 0.5f) / float(extent.x), (float(pixel.y) + 0.5f) / float(extent.y)};
@@ -87,13 +90,15 @@ struct flat_surface {
 
 // A view of a picture in linear RGB, [y][x][channel]; owns nothing.
 struct rgb_image {
-    std::span<float> values = {};
-    glm::ivec2 extent{0};
-    std::size_t row_stride = 0;  // floats from one row to the next; 0: tightly packed
+    std::span<float> values = {};  // from pixel (0, 0) on
+    glm::ivec2 extent{0};          // pixels
+    std::size_t row_stride = 0;    // floats from one row to the next; 0: tightly packed
 
+    // row_stride, or what it is where tightly packed.
     [[nodiscard]] constexpr std::size_t row_step() const {
         return row_stride != 0 ? row_stride : 3 * std::size_t(extent.x);
     }
+    // First value of row y.
     [[nodiscard]] constexpr float* row(int y) const { return values.data() + std::size_t(y) * row_step(); }
     // Floats that `values` has to have.
     [[nodiscard]] constexpr std::size_t required_size() const {
@@ -101,6 +106,7 @@ struct rgb_image {
     }
 };
 
+// Checks extent, stride and size.
 [[nodiscard]] inline status check(const rgb_image& image) {
     if (image.extent.x <= 0) return {error::not_positive, "image extent.x", double(image.extent.x)};
     if (image.extent.y <= 0) return {error::not_positive, "image extent.y", double(image.extent.y)};
@@ -111,10 +117,11 @@ struct rgb_image {
     return {};
 }
 
-// The transfer functions of sRGB (IEC 61966-2-1).
+// sRGB in [0, 1] to linear light. Source: IEC 61966-2-1.
 [[nodiscard]] inline float srgb_to_linear(float srgb) {
     return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
 }
+// Its inverse.
 [[nodiscard]] inline float linear_to_srgb(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }

@@ -26,21 +26,25 @@
 
 namespace bumpshadow {
 
+// What a coordinate outside [0, 1] reads, along one axis.
 enum class address_mode : unsigned char { repeat, clamp, mirror };
+// The nearest texel or level, or an interpolation of neighbors.
 enum class filter_mode : unsigned char { point, linear };
+// How exact the weights of linear filters are.
 enum class filter_weights : unsigned char {
     exact,      // float
     eight_bit,  // the position in texels (and the level) is rounded to the nearest 1/256, halves up, before it is split
                 // into texel and weight: what GPUs do, and the least that Direct3D asks for. Linear filters only.
 };
 
+// How a texture is sampled.
 struct sampler {
-    address_mode x = address_mode::repeat;
-    address_mode y = address_mode::repeat;
-    address_mode z = address_mode::repeat;  // along the slices of a volume
-    filter_mode texels = filter_mode::linear;
-    filter_mode levels = filter_mode::point;  // linear: trilinear; point: the nearest level, halves up
-    filter_weights weights = filter_weights::exact;
+    address_mode x = address_mode::repeat;           // along u
+    address_mode y = address_mode::repeat;           // along v
+    address_mode z = address_mode::repeat;           // along the slices of a volume
+    filter_mode texels = filter_mode::linear;        // within a level
+    filter_mode levels = filter_mode::point;         // linear: trilinear; point: the nearest level, halves up
+    filter_weights weights = filter_weights::exact;  // of texels and levels
 };
 
 namespace sampler_detail {

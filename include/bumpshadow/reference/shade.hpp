@@ -35,36 +35,41 @@
 
 namespace bumpshadow {
 
-// The light's shadow: a callable that takes uv and the light in tangent space (unit length, or 0) and gives a factor in
-// [0, 1]; shadow.hpp has one for each encoding. It may also have
+// No shadow, and the model of what shade() takes: a callable that takes uv and the light in tangent space (unit length,
+// or 0) and gives a factor in [0, 1]; shadow.hpp has one for each encoding. It may also have
 //   bool row(glm::ivec2 extent, glm::ivec2 first, int count, glm::vec3 light, float* factors) const
 //     the same for `count` texels from `first` on, of a map of that extent; false where it would rather be called
 //   static constexpr bool shades: what it gives is brightness, max(n . l, 0) included
 //   status check() const: whether it can be used at all
 struct no_shadow {
+    // Lit.
     float operator()(glm::vec2, glm::vec3) const { return 1.0f; }
+    // Lit, `count` times.
     [[nodiscard]] bool row(glm::ivec2, glm::ivec2, int count, glm::vec3, float* factors) const {
         std::fill(factors, factors + count, 1.0f);
         return true;
     }
 };
 
+// What shade() takes besides shadow, surface and picture. Colors are linear RGB.
 struct shade_options {
-    light_source light = {};
+    light_source light = {};  // in the space of the surface
     glm::vec3 ambient{0.0f};  // never shadowed; give it to one of several lights
     // Read texel by texel on a flat_surface, whose extent they must have; at uv, filtered and repeated, on any other.
-    normal_map normals = {};    // from bake_normals or decode_normals; empty: straight up
-    const_pixels diffuse = {};  // 3 or 4 channels, the fourth is ignored; empty: white
-    bool diffuse_is_srgb = true;
-    glm::vec3 albedo{1.0f};  // times the diffuse map
-    glm::vec3 specular{0.0f};
-    float shininess = 32.0f;
-    glm::vec3 viewer_direction{0.0f, 0.0f, 1.0f};               // far away, any length
-    std::optional<glm::vec3> viewer_position = {};              // if near
-    std::span<const float> existing_shadow = {};                // [y][x], tightly packed, multiplied in; empty: none
-    float fade_start = std::numeric_limits<float>::infinity();  // distance from the viewer at which shadows begin to
-    float fade_end = std::numeric_limits<float>::infinity();    // fade, and at which they have gone (encoded ones only)
-    bool add = false;                                           // to what the picture holds: for several lights
+    normal_map normals = {};                        // from bake_normals or decode_normals; empty: straight up
+    const_pixels diffuse = {};                      // 3 or 4 channels, the fourth is ignored; empty: white
+    bool diffuse_is_srgb = true;                    // false: linear
+    glm::vec3 albedo{1.0f};                         // times the diffuse map
+    glm::vec3 specular{0.0f};                       // factor of the highlight
+    float shininess = 32.0f;                        // exponent of the highlight
+    glm::vec3 viewer_direction{0.0f, 0.0f, 1.0f};   // far away, any length
+    std::optional<glm::vec3> viewer_position = {};  // if near
+    std::span<const float> existing_shadow = {};    // [y][x], tightly packed, multiplied in; empty: none
+    // Distances from the viewer, in the space of the surface, at which shadows begin to fade and at which they have
+    // gone; encoded shadows alone.
+    float fade_start = std::numeric_limits<float>::infinity();
+    float fade_end = std::numeric_limits<float>::infinity();  // not below fade_start
+    bool add = false;                                         // to what the picture holds: for several lights
 };
 
 namespace shade_detail {

@@ -52,10 +52,12 @@ namespace bumpshadow {
 
 // ---- Slice layers ----
 
+// Elevation of a light as slice layers store horizons.
 [[nodiscard]] inline float light_level(const slice_layers& encoding, glm::vec3 light) {
     return shadow_detail::level_of(encoding.scale, light);
 }
 
+// Horizon in a bearing as the encoding's function measures it, in turns.
 [[nodiscard]] inline float horizon_at(const slice_layers& encoding, const const_texture& from, const sampler& how,
                                       glm::vec2 uv, float bearing, float level = 0.0f) {
     const float layers = static_cast<float>(from.layout.layers);
@@ -72,6 +74,7 @@ namespace bumpshadow {
     return shader::bumpshadow_grouped_horizon(layer(place.x), layer(place.y).x, place.z);
 }
 
+// Horizon towards a light, from one or two layers of the array.
 [[nodiscard]] inline float horizon(const slice_layers& encoding, const const_texture& from, const sampler& how,
                                    glm::vec2 uv, glm::vec3 light, float level = 0.0f) {
     const float bearing = shadow_detail::bearing_of(encoding.slices.function, {light.x, light.y});
@@ -82,15 +85,15 @@ namespace bumpshadow {
 
 // Where an encoding has two textures in place of an array.
 struct two_textures {
-    const_texture first, second;
+    const_texture first, second;  // flat, of the same layout
 };
 
 // The textures of sine layers, and the cube that their factors come from.
 template <class Textures>
 struct with_factor_cube {
-    Textures maps;
-    const_texture cube;
-    factor_form form = factor_form::biased;
+    Textures maps;                           // a const_texture of two layers, or two_textures
+    const_texture cube;                      // write_factor_cube
+    factor_form form = factor_form::biased;  // of the cube
 };
 
 namespace shadow_detail {
@@ -107,11 +110,12 @@ struct two_texels {
 
 }  // namespace shadow_detail
 
+// Elevation of a light as sine layers store horizons.
 [[nodiscard]] inline float light_level(const sine_layers& encoding, glm::vec3 light) {
     return shadow_detail::level_of(encoding.scale, light);
 }
 
-// Textures: a const_texture of two layers, or two_textures; factors are computed.
+// Horizon towards a light; factors are computed. from: a const_texture of two layers, or two_textures.
 template <class Textures>
 [[nodiscard]] float horizon(const sine_layers&, const Textures& from, const sampler& how, glm::vec2 uv, glm::vec3 light,
                             float level = 0.0f) {
@@ -119,7 +123,7 @@ template <class Textures>
     return shader::bumpshadow_sine_layers(first, second, {light.x, light.y});
 }
 
-// Factors from the cube, filtered with the sampler's weights.
+// Horizon towards a light; factors from the cube, filtered with the sampler's weights.
 template <class Textures>
 [[nodiscard]] float horizon(const sine_layers&, const with_factor_cube<Textures>& from, const sampler& how,
                             glm::vec2 uv, glm::vec3 light, float level = 0.0f) {
@@ -135,14 +139,16 @@ template <class Textures>
 
 // The textures with what decoding takes; the first texture_count(encoding) count.
 struct fourier_textures {
-    std::array<const_texture, 3> maps;
-    fourier_decoding decoding;  // decoding_of(encoding)
+    std::array<const_texture, 3> maps;  // flat
+    fourier_decoding decoding;          // decoding_of(encoding)
 };
 
+// Elevation of a light in the quantity of the series.
 [[nodiscard]] inline float light_level(const fourier& encoding, glm::vec3 light) {
     return shadow_detail::level_of(encoding.scale, light);
 }
 
+// Horizon towards a light: the series summed up. It may overshoot [0, 1].
 [[nodiscard]] inline float horizon(const fourier& encoding, const fourier_textures& from, const sampler& how,
                                    glm::vec2 uv, glm::vec3 light, float level = 0.0f) {
     const fourier_decoding& d = from.decoding;
@@ -171,15 +177,18 @@ struct fourier_textures {
 // Horizons baked in the light's own bearing, by bake_exact for instance: a flat r32f texture of slopes, the one slice
 // of a horizon_map. They are compared as `scale` says, without its limit.
 struct traced {
-    horizon_scale scale;
+    horizon_scale scale;  // quantity that is compared, and the slope that stands for 1
 };
 
+// One flat texture of floats.
 [[nodiscard]] constexpr texture_layout layout_of(const traced&, glm::ivec2 extent, int mips = 1) {
     return {.format = texel_format::r32f, .extent = extent, .mips = mips};
 }
+// Elevation of a light in the quantity of the scale.
 [[nodiscard]] inline float light_level(const traced& encoding, glm::vec3 light) {
     return shadow_detail::level_of(encoding.scale, light);
 }
+// Horizon in the bearing that was baked, whatever that of the light.
 [[nodiscard]] inline float horizon(const traced& encoding, const const_texture& from, const sampler& how, glm::vec2 uv,
                                    glm::vec3, float level = 0.0f) {
     const float slope = sample(from, how, uv, level).x;
@@ -188,6 +197,10 @@ struct traced {
 
 // ---- The factor ----
 
+// Shadow factor in [0, 1] of a light at uv: 0 in shadow, 1 in light.
+//   textures: as horizon() of this encoding takes them
+//   light: towards the light in tangent space, see above
+//   level: of the mip chain
 template <class Encoding, class Textures>
 [[nodiscard]] float shadow_factor(const Encoding& encoding, const Textures& textures, const sampler& how, glm::vec2 uv,
                                   glm::vec3 light, const shadow_edge& edge = {}, float level = 0.0f) {
@@ -213,8 +226,8 @@ template <class Encoding, class Textures>
 
 // The height texture of embossing, and the shift of a light at the horizon in texture coordinates.
 struct emboss_texture {
-    const_texture heights;
-    glm::vec2 amount{0.0f};
+    const_texture heights;   // pack_emboss
+    glm::vec2 amount{0.0f};  // texture coordinates
 };
 
 // What the base texture is multiplied by, 0 to 2: 256/255 where the surface is flat, more where it faces the light.
@@ -262,35 +275,38 @@ template <class Textures>
 }  // namespace shadow_detail
 
 // A shadow for shade.hpp. Name the template arguments: not every compiler deduces them from designated initializers.
-//   edge    shape of the shadow's edge
-//   radius  degrees; above 0, k is that of edge_for() at each pixel's own elevation of the light: for near lights and
-//           curved surfaces
 template <class Encoding, class Textures = const_texture>
 struct encoded_shadow {
-    Encoding encoding = {};
-    Textures textures = {};
-    sampler how = {};
-    shadow_edge edge = {};
+    Encoding encoding = {};  // what the textures hold
+    Textures textures = {};  // as horizon() of the encoding takes them
+    sampler how = {};        // for all of them
+    shadow_edge edge = {};   // shape of the shadow's edge
+    // Angular radius of the light in degrees, 0 to 45. Above 0, k is that of edge_for() at each pixel's own elevation
+    // of the light: for near lights and curved surfaces.
     double radius = 0.0;
-    float level = 0.0f;
+    float level = 0.0f;  // of the mip chain
 
+    // True where the encoding gives brightness in place of a shadow factor.
     static constexpr bool shades = std::is_same_v<Encoding, ssbump> || std::is_same_v<Encoding, emboss>;
 
-    // shade() begins with it.
+    // Checks edge, radius and textures; shade() begins with it.
     [[nodiscard]] status check() const {
         if (status s = bumpshadow::check(edge); !s) return s;
         if (!(radius >= 0.0 && radius <= 45.0)) return {error::out_of_range, "radius", radius, 45.0};
         return shadow_detail::check_textures(encoding, textures);
     }
 
+    // The edge under a light in this direction.
     [[nodiscard]] shadow_edge edge_at(glm::vec3 light) const {
         if constexpr (!shades)
             if (radius > 0.0) return edge_for(radius, encoding.scale, elevation_of(light), edge.c);
         return edge;
     }
+    // Shadow factor at uv.
     [[nodiscard]] float operator()(glm::vec2 uv, glm::vec3 light) const {
         return shadow_factor(encoding, textures, how, uv, light, edge_at(light), level);
     }
+    // Shadow factors of `count` texels from `first` on, of a map of that extent; false where this has no fast way.
     [[nodiscard]] bool row(glm::ivec2 extent, glm::ivec2 first, int count, glm::vec3 light,
                            float* factors) const requires std::is_same_v<Encoding, tangent_volume> {
         if (textures.layout.format != texel_format::r8 || textures.layout.extent != extent || level != 0.0f ||

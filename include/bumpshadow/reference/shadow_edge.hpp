@@ -16,14 +16,15 @@ namespace bumpshadow {
 
 // Edge of a shadow: factor clamp(k (light - horizon) + c, 0, 1), in the quantity that the texture stores, over what
 // stands for 1 there.
-//   k  0 to infinity; infinity: a hard edge
-//   c  1: the edge lies inside the shadow, and all that the light's middle sees is fully lit (Lengyel 2019, equation
-//      5.4, with k = 8); 0.5: it is centered. Does not matter for a hard edge.
 struct shadow_edge {
+    // Inverse of the edge's width, 0 to infinity; infinity: a hard edge.
     float k = std::numeric_limits<float>::infinity();
+    // 1: the edge lies inside the shadow, and all that the light's middle sees is fully lit (Lengyel 2016,
+    // equation 5.4, with k = 8); 0.5: it is centered. Does not matter for a hard edge.
     float c = 1.0f;
 };
 
+// Checks k and c.
 [[nodiscard]] inline status check(const shadow_edge& edge) {
     if (!(edge.k >= 0.0f)) return {error::out_of_range, "edge.k", double(edge.k), 0.0};
     if (!(edge.c >= 0.0f && edge.c <= 1.0f)) return {error::out_of_range, "edge.c", double(edge.c), 1.0};
@@ -80,6 +81,7 @@ inline constexpr double sun_radius = 0.2666;
     return is_finite(degrees) ? degrees : 0.0;
 }
 
+// Neither NaN nor infinite in any component.
 [[nodiscard]] inline bool is_finite(glm::vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
 namespace shadow_detail {

@@ -77,11 +77,12 @@ namespace shadow_detail {
 
 }  // namespace shadow_detail
 
+// Elevation of a light as a tangent volume stores horizons.
 [[nodiscard]] inline float light_level(const tangent_volume& encoding, glm::vec3 light) {
     return shadow_detail::level_of(encoding.scale, light);
 }
 
-// From a bearing as the encoding's function measures it, e.g. an interpolated one.
+// Horizon in a bearing as the encoding's function measures it, in turns, e.g. an interpolated one.
 [[nodiscard]] inline float horizon_at(const tangent_volume& encoding, const const_texture& from, sampler how,
                                       glm::vec2 uv, float bearing, float level = 0.0f) {
     if (encoding.kind == texture_kind::flat) return sample(from, how, uv, level).x;
@@ -94,6 +95,7 @@ namespace shadow_detail {
                                               sample(from, how, uv, level, at.second).x, at.weight);
 }
 
+// Horizon towards a light.
 [[nodiscard]] inline float horizon(const tangent_volume& encoding, const const_texture& from, const sampler& how,
                                    glm::vec2 uv, glm::vec3 light, float level = 0.0f) {
     const float bearing = shadow_detail::bearing_of(encoding.slices.function, {light.x, light.y});

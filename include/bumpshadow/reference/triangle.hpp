@@ -35,10 +35,11 @@ enum class interpolant : unsigned char {
 
 // A light as a pixel looks it up.
 struct pixel_light {
-    float bearing = 0.0f;  // as the encoding's function measures it; any number of turns
-    float slope = 0.0f;
+    float bearing = 0.0f;  // as the encoding's function measures it, in turns, any number of them
+    float slope = 0.0f;    // tangent of the elevation
 };
 
+// The light of a pixel from those of a triangle's vertices.
 // lights: at the vertices, in tangent space, of lengths whose squares neither overflow nor vanish; for `light` they
 //   have to be vectors to the light in one unit
 // weights: the pixel's barycentric coordinates

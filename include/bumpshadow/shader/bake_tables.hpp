@@ -26,7 +26,7 @@ namespace bumpshadow {
 // One dispatch of the kernel. All that one writes has to be visible to the next: a barrier between them.
 struct bake_dispatch {
     std::array<std::int32_t, 4> constants{};  // the kernel's uniform or constant buffer
-    glm::ivec3 groups{0};
+    glm::ivec3 groups{0};                     // of bake_group threads, along x, y and z
 };
 
 // Threads of a group along x and y.

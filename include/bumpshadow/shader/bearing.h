@@ -21,7 +21,8 @@ BUMPSHADOW_FUNCTION float bumpshadow_unfold(vec2 v, float turns) {
     return (v.x >= -v.y ? past : -past) + (bumpshadow_steep(v) ? 0.5f : 0.25f);
 }
 
-// The minimax polynomial of arcsin: half of what atan costs, which reduces a range that is reduced already.
+// The true angle, by the minimax polynomial of arcsin: half of what atan costs, which reduces a range that is reduced
+// already.
 BUMPSHADOW_FUNCTION float bumpshadow_bearing_exact(vec2 v) {
     float sine = bumpshadow_across(v) * inversesqrt(bumpshadow_square(v));
     float square = sine * sine;
@@ -30,21 +31,25 @@ BUMPSHADOW_FUNCTION float bumpshadow_bearing_exact(vec2 v) {
         v, sine * (0.159153938f + square * (0.026577197f + square * (0.0111934934f + square * high))));
 }
 
+// s (c0 + c1 s^2 + c2 s^4), s being the sine of the angle from the nearest axis.
 BUMPSHADOW_FUNCTION float bumpshadow_bearing_quintic(vec2 v) {
     float sine = bumpshadow_across(v) * inversesqrt(bumpshadow_square(v));
     float square = sine * sine;
     return bumpshadow_unfold(v, sine * (0.15944586f + square * (0.022631394f + square * 0.024060546f)));
 }
 
+// s (c0 + c1 s^2).
 BUMPSHADOW_FUNCTION float bumpshadow_bearing_cubic(vec2 v) {
     float sine = bumpshadow_across(v) * inversesqrt(bumpshadow_square(v));
     return bumpshadow_unfold(v, sine * (0.15703793f + 0.039477522f * sine * sine));
 }
 
+// Linear in s. Source: Forsyth 2002, Self-shadowing Bumpmap using 3D Texture Hardware, section 4.1.
 BUMPSHADOW_FUNCTION float bumpshadow_bearing_octant(vec2 v) {
     return bumpshadow_unfold(v, 0.1767767f * bumpshadow_across(v) * inversesqrt(bumpshadow_square(v)));
 }
 
+// The perimeter of |x| + |y| = 1. No square root.
 BUMPSHADOW_FUNCTION float bumpshadow_bearing_diamond(vec2 v) {
     return bumpshadow_unfold(v, 0.25f * bumpshadow_across(v) / max(abs(v.x) + abs(v.y), 1e-30f));
 }

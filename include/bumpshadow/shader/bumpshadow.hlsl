@@ -117,7 +117,8 @@ float bumpshadow_unfold(float2 v, float turns) {
     return (v.x >= -v.y ? past : -past) + (bumpshadow_steep(v) ? 0.5 : 0.25);
 }
 
-// The minimax polynomial of arcsin: half of what atan costs, which reduces a range that is reduced already.
+// The true angle, by the minimax polynomial of arcsin: half of what atan costs, which reduces a range that is reduced
+// already.
 float bumpshadow_bearing_exact(float2 v) {
     float sine = bumpshadow_across(v) * rsqrt(bumpshadow_square(v));
     float square = sine * sine;
@@ -126,21 +127,25 @@ float bumpshadow_bearing_exact(float2 v) {
         v, sine * (0.159153938 + square * (0.026577197 + square * (0.0111934934 + square * high))));
 }
 
+// s (c0 + c1 s^2 + c2 s^4), s being the sine of the angle from the nearest axis.
 float bumpshadow_bearing_quintic(float2 v) {
     float sine = bumpshadow_across(v) * rsqrt(bumpshadow_square(v));
     float square = sine * sine;
     return bumpshadow_unfold(v, sine * (0.15944586 + square * (0.022631394 + square * 0.024060546)));
 }
 
+// s (c0 + c1 s^2).
 float bumpshadow_bearing_cubic(float2 v) {
     float sine = bumpshadow_across(v) * rsqrt(bumpshadow_square(v));
     return bumpshadow_unfold(v, sine * (0.15703793 + 0.039477522 * sine * sine));
 }
 
+// Linear in s. Source: Forsyth 2002, Self-shadowing Bumpmap using 3D Texture Hardware, section 4.1.
 float bumpshadow_bearing_octant(float2 v) {
     return bumpshadow_unfold(v, 0.1767767 * bumpshadow_across(v) * rsqrt(bumpshadow_square(v)));
 }
 
+// The perimeter of |x| + |y| = 1. No square root.
 float bumpshadow_bearing_diamond(float2 v) {
     return bumpshadow_unfold(v, 0.25 * bumpshadow_across(v) / max(abs(v.x) + abs(v.y), 1e-30));
 }
@@ -179,6 +184,7 @@ float3 bumpshadow_emboss(float relief, float3 base, float3 color) {
 // all others 0. They add up to 1.
 // Source: Lengyel, Smooth Horizon Mapping (Game Engine Gems 3, 2016), section 5.3.
 
+// The eight factors, in [0, 1].
 struct bumpshadow_eight {
     float4 layer0;  // 0, 45, 90, 135 degrees
     float4 layer1;  // 180, 225, 270, 315 degrees
@@ -193,15 +199,17 @@ bumpshadow_eight bumpshadow_factors_published_cube(float4 texel) {
     return factors;
 }
 
-// From a factor cube in which 128 of 255 stands for 0: at the same cost, and nothing leaks.
+// Factors of layer 0 from a cube in which 128 of 255 stands for 0: at the same cost, and nothing leaks.
 float4 bumpshadow_layer0_biased_cube(float4 texel) {
     return clamp(texel * 2.007874 - 1.007874, 0.0, 1.0);
 }
 
+// Factors of layer 1 from the same.
 float4 bumpshadow_layer1_biased_cube(float4 texel) {
     return clamp(texel * -2.007874 + 1.007874, 0.0, 1.0);
 }
 
+// Both.
 bumpshadow_eight bumpshadow_factors_biased_cube(float4 texel) {
     bumpshadow_eight factors;
     factors.layer0 = bumpshadow_layer0_biased_cube(texel);
@@ -282,20 +290,24 @@ float2 bumpshadow_fourier_turn(float2 higher, float2 lower, float2 direction) {
                 lower.y + higher.y * direction.y + higher.x * direction.x);
 }
 
+// Horizon towards a light, 3 coefficients. texel: decoded; direction: from bumpshadow_fourier_direction.
 float bumpshadow_fourier_3(float3 texel, float2 direction) {
     return texel.z + texel.x * direction.x + texel.y * direction.y;
 }
 
+// 5 coefficients, the constant from the second texture.
 float bumpshadow_fourier_5(float4 texel, float constant, float2 direction) {
     float2 pair = bumpshadow_fourier_turn(float2(texel.z, texel.w), float2(texel.x, texel.y), direction);
     return constant + pair.x * direction.x + pair.y * direction.y;
 }
 
+// 7 coefficients. more: those of the second texture.
 float bumpshadow_fourier_7(float4 texel, float3 more, float2 direction) {
     float2 pair = bumpshadow_fourier_turn(float2(more.x, more.y), float2(texel.z, texel.w), direction);
     return bumpshadow_fourier_5(float4(texel.x, texel.y, pair.x, pair.y), more.z, direction);
 }
 
+// 9 coefficients, the constant from the third texture.
 float bumpshadow_fourier_9(float4 texel, float4 more, float constant, float2 direction) {
     float2 pair = bumpshadow_fourier_turn(float2(more.z, more.w), float2(more.x, more.y), direction);
     return bumpshadow_fourier_7(texel, float3(pair.x, pair.y, constant), direction);
@@ -363,13 +375,13 @@ float bumpshadow_shadow_soft_above(float light, float horizon, float k, float c)
     return min(max(0.0, min(k, 1e30) * (light - horizon) + c), 1.0);
 }
 
-// The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2019, equation 5.4); c
+// The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2016, equation 5.4); c
 // = 0.5: it is centered. k from 0 to infinity.
 float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
     return light >= 0.0 ? bumpshadow_shadow_soft_above(light, horizon, k, c) : 0.0;
 }
 
-// Shadows that end with distance: the factor up to `start`, 1 from `end` on.
+// Shadows that end with distance, all three in one unit: the factor up to `start`, 1 from `end` on.
 float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
     return lerp(factor, 1.0, min(max(0.0, (distance - start) / max(end - start, 1e-30)), 1.0));
 }
@@ -498,15 +510,17 @@ float3 bumpshadow_ssbump_normal(float3 masks) {
 }
 
 // The basis concatenated with the way from tangent space to the world, whose axes are unit vectors in the world: once a
-// vertex or a pixel. Any of the sums above then lands in the world.
+// vertex or a pixel. Any of the sums above then lands in the world. This is the vector of the red mask.
 float3 bumpshadow_ssbump_world_red(float3 tangent, float3 normal) {
     return 0.81649658 * tangent + 0.57735027 * normal;
 }
 
+// The vector of the green mask in the world.
 float3 bumpshadow_ssbump_world_green(float3 tangent, float3 bitangent, float3 normal) {
     return 0.70710678 * bitangent - 0.40824829 * tangent + 0.57735027 * normal;
 }
 
+// The vector of the blue mask in the world.
 float3 bumpshadow_ssbump_world_blue(float3 tangent, float3 bitangent, float3 normal) {
     return 0.57735027 * normal - 0.40824829 * tangent - 0.70710678 * bitangent;
 }
@@ -560,7 +574,7 @@ float bumpshadow_ssbump_light(float3 masks, float3 weights) { return dot(masks, 
 //
 // Horizons as slices of one channel (encode/tangent_volume.hpp): N slices, slice i at bearing phase + i / N. Values are
 // the stored quantity over what stands for 1, and are compared with a light in the same unit.
-// Source: Forsyth, Self-shadowing Bumpmap using 3D Texture Hardware, sections 3 and 4.
+// Source: Forsyth 2002, Self-shadowing Bumpmap using 3D Texture Hardware, sections 3 and 4.
 
 // Third coordinate of a volume texture that repeats, for one fetch, at level 0: where bearings wrap the coordinate
 // jumps, and implicit derivatives would ask for a coarse level there. offset: 0.5 / N - phase
@@ -589,7 +603,7 @@ float3 bumpshadow_arc_layers(float bearing, float start, float scale, float offs
     return float3(layer, layer + 1.0, position - layer);
 }
 
-// Horizon from the two values.
+// Horizon from the values of the two layers.
 float bumpshadow_tangent_horizon(float value, float next_value, float part) {
     return lerp(value, next_value, part);
 }
@@ -615,23 +629,27 @@ float bumpshadow_vertex_slope(float3 light, float most) {
     return clamp(bumpshadow_slope(light), -most, most);
 }
 
-// Bearing and slope of a light.
+// Bearing (x, turns) and slope (y, cut at `most`) of a light; the bearing by bumpshadow_bearing_exact.
 float2 bumpshadow_vertex_bearing_exact(float3 light, float most) {
     return float2(bumpshadow_bearing_exact(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 
+// The same by bumpshadow_bearing_quintic.
 float2 bumpshadow_vertex_bearing_quintic(float3 light, float most) {
     return float2(bumpshadow_bearing_quintic(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 
+// The same by bumpshadow_bearing_cubic.
 float2 bumpshadow_vertex_bearing_cubic(float3 light, float most) {
     return float2(bumpshadow_bearing_cubic(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 
+// The same by bumpshadow_bearing_octant.
 float2 bumpshadow_vertex_bearing_octant(float3 light, float most) {
     return float2(bumpshadow_bearing_octant(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 
+// The same by bumpshadow_bearing_diamond.
 float2 bumpshadow_vertex_bearing_diamond(float3 light, float most) {
     return float2(bumpshadow_bearing_diamond(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }

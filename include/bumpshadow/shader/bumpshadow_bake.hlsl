@@ -70,15 +70,19 @@ cbuffer bumpshadow_bake_constants_block : register(b4) { int4 bumpshadow_bake_di
 // bumpshadow_bake_scratch or in entries of the tables. A frame is the map, or its transpose, whichever makes rays cross
 // more rows than columns.
 
-// Height of a hole, and slope of nothing.
+// Height of a hole.
 float bumpshadow_bake_hole() { return -1e37f; }
+// True for a hole, and for what was interpolated with one.
 bool bumpshadow_bake_is_hole(float height) { return height < -1e20f; }
 // Slope of a horizon where nothing occludes.
 float bumpshadow_bake_no_horizon() { return -3.402823466e38f; }
 // Inverse of a distance of 0.
 float bumpshadow_bake_inverse_of_zero() { return 1e30f; }
+// bumpshadow::edge_mode::clamp, as the tables have it.
 int bumpshadow_bake_edge_clamp() { return 1; }
+// bumpshadow::edge_mode::mirror.
 int bumpshadow_bake_edge_mirror() { return 2; }
+// bumpshadow::edge_mode::open.
 int bumpshadow_bake_edge_open() { return 3; }
 
 // i / n, rounded down. Unsigned, since GPUs divide integers with a sign more slowly.
@@ -86,6 +90,7 @@ int bumpshadow_bake_quotient(int i, int n) {
     int quotient = int(uint(i >= 0 ? i : -1 - i) / uint(n));
     return i >= 0 ? quotient : -1 - quotient;
 }
+// What is left of i, 0 to n - 1.
 int bumpshadow_bake_remainder(int i, int n) { return i - n * bumpshadow_bake_quotient(i, n); }
 
 // Index that stands in for index i of n, or -1.

@@ -2,6 +2,7 @@
 // all others 0. They add up to 1.
 // Source: Lengyel, Smooth Horizon Mapping (Game Engine Gems 3, 2016), section 5.3.
 
+// The eight factors, in [0, 1].
 struct bumpshadow_eight {
     vec4 layer0;  // 0, 45, 90, 135 degrees
     vec4 layer1;  // 180, 225, 270, 315 degrees
@@ -16,13 +17,15 @@ BUMPSHADOW_FUNCTION bumpshadow_eight bumpshadow_factors_published_cube(vec4 texe
     return factors;
 }
 
-// From a factor cube in which 128 of 255 stands for 0: at the same cost, and nothing leaks.
+// Factors of layer 0 from a cube in which 128 of 255 stands for 0: at the same cost, and nothing leaks.
 BUMPSHADOW_FUNCTION vec4 bumpshadow_layer0_biased_cube(vec4 texel) {
     return clamp(texel * 2.007874f - 1.007874f, 0.0f, 1.0f);
 }
+// Factors of layer 1 from the same.
 BUMPSHADOW_FUNCTION vec4 bumpshadow_layer1_biased_cube(vec4 texel) {
     return clamp(texel * -2.007874f + 1.007874f, 0.0f, 1.0f);
 }
+// Both.
 BUMPSHADOW_FUNCTION bumpshadow_eight bumpshadow_factors_biased_cube(vec4 texel) {
     bumpshadow_eight factors;
     factors.layer0 = bumpshadow_layer0_biased_cube(texel);

@@ -37,20 +37,24 @@ BUMPSHADOW_FUNCTION vec2 bumpshadow_fourier_turn(vec2 higher, vec2 lower, vec2 d
                 lower.y + higher.y * direction.y + higher.x * direction.x);
 }
 
+// Horizon towards a light, 3 coefficients. texel: decoded; direction: from bumpshadow_fourier_direction.
 BUMPSHADOW_FUNCTION float bumpshadow_fourier_3(vec3 texel, vec2 direction) {
     return texel.z + texel.x * direction.x + texel.y * direction.y;
 }
 
+// 5 coefficients, the constant from the second texture.
 BUMPSHADOW_FUNCTION float bumpshadow_fourier_5(vec4 texel, float constant, vec2 direction) {
     vec2 pair = bumpshadow_fourier_turn(vec2(texel.z, texel.w), vec2(texel.x, texel.y), direction);
     return constant + pair.x * direction.x + pair.y * direction.y;
 }
 
+// 7 coefficients. more: those of the second texture.
 BUMPSHADOW_FUNCTION float bumpshadow_fourier_7(vec4 texel, vec3 more, vec2 direction) {
     vec2 pair = bumpshadow_fourier_turn(vec2(more.x, more.y), vec2(texel.z, texel.w), direction);
     return bumpshadow_fourier_5(vec4(texel.x, texel.y, pair.x, pair.y), more.z, direction);
 }
 
+// 9 coefficients, the constant from the third texture.
 BUMPSHADOW_FUNCTION float bumpshadow_fourier_9(vec4 texel, vec4 more, float constant, vec2 direction) {
     vec2 pair = bumpshadow_fourier_turn(vec2(more.z, more.w), vec2(more.x, more.y), direction);
     return bumpshadow_fourier_7(texel, vec3(pair.x, pair.y, constant), direction);

@@ -35,6 +35,7 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
+// What a snippet's function begins with; GLSL and HLSL have nothing there.
 #define BUMPSHADOW_FUNCTION [[nodiscard]] inline
 
 #include <bumpshadow/shader/bearing.h>

@@ -16,13 +16,13 @@ BUMPSHADOW_FUNCTION float bumpshadow_shadow_soft_above(float light, float horizo
     return min(max(0.0f, min(k, 1e30f) * (light - horizon) + c), 1.0f);
 }
 
-// The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2019, equation 5.4); c
+// The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2016, equation 5.4); c
 // = 0.5: it is centered. k from 0 to infinity.
 BUMPSHADOW_FUNCTION float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
     return light >= 0.0f ? bumpshadow_shadow_soft_above(light, horizon, k, c) : 0.0f;
 }
 
-// Shadows that end with distance: the factor up to `start`, 1 from `end` on.
+// Shadows that end with distance, all three in one unit: the factor up to `start`, 1 from `end` on.
 BUMPSHADOW_FUNCTION float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
     return mix(factor, 1.0f, min(max(0.0f, (distance - start) / max(end - start, 1e-30f)), 1.0f));
 }

@@ -16,6 +16,7 @@
 
 namespace bumpshadow::shader_text {
 
+// Shading language of the text.
 enum class dialect : unsigned char {
     glsl,  // 330 and newer, ES 300 and newer, Vulkan
     hlsl,  // shader model 4 and newer
@@ -42,6 +43,7 @@ enum class decoder : unsigned char {
     emboss,
 };
 
+// Edge of the shadow, see shader/shadow.h.
 enum class edge : unsigned char {
     hard,
     soft,            // inside the shadow: c = 1
@@ -52,12 +54,12 @@ enum class edge : unsigned char {
 
 // What the source is put together for.
 struct choice {
-    decoder decode = decoder::volume;
-    bearing_function bearing = bearing_function::cubic;
-    quantity stored = quantity::slope;
-    edge shadow = edge::soft;
-    bool square_root = false;  // Fourier: signed square roots are stored
-    bool vertex = false;       // decoders of slices: bearing and level a vertex at a time, too
+    decoder decode = decoder::volume;                    // what textures there are
+    bearing_function bearing = bearing_function::cubic;  // that slices were baked for
+    quantity stored = quantity::slope;                   // by the texture
+    edge shadow = edge::soft;                            // of the shadow
+    bool square_root = false;                            // Fourier: signed square roots are stored
+    bool vertex = false;  // decoders of slices: bearing and level a vertex at a time, too
 };
 
 namespace snippets_detail {

@@ -59,7 +59,8 @@ R"~(float bumpshadow_unfold(float2 v, float turns) {
 )~",
      {0xau, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_bearing_exact",
-R"~(// The minimax polynomial of arcsin: half of what atan costs, which reduces a range that is reduced already.
+R"~(// The true angle, by the minimax polynomial of arcsin: half of what atan costs, which reduces a range that is reduced
+// already.
 )~",
 R"~(float bumpshadow_bearing_exact(vec2 v) {
     float sine = bumpshadow_across(v) * inversesqrt(bumpshadow_square(v));
@@ -79,7 +80,8 @@ R"~(float bumpshadow_bearing_exact(float2 v) {
 )~",
      {0x1fu, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_bearing_quintic",
-R"~()~",
+R"~(// s (c0 + c1 s^2 + c2 s^4), s being the sine of the angle from the nearest axis.
+)~",
 R"~(float bumpshadow_bearing_quintic(vec2 v) {
     float sine = bumpshadow_across(v) * inversesqrt(bumpshadow_square(v));
     float square = sine * sine;
@@ -94,7 +96,8 @@ R"~(float bumpshadow_bearing_quintic(float2 v) {
 )~",
      {0x2fu, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_bearing_cubic",
-R"~()~",
+R"~(// s (c0 + c1 s^2).
+)~",
 R"~(float bumpshadow_bearing_cubic(vec2 v) {
     float sine = bumpshadow_across(v) * inversesqrt(bumpshadow_square(v));
     return bumpshadow_unfold(v, sine * (0.15703793 + 0.039477522 * sine * sine));
@@ -107,7 +110,8 @@ R"~(float bumpshadow_bearing_cubic(float2 v) {
 )~",
      {0x4fu, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_bearing_octant",
-R"~()~",
+R"~(// Linear in s. Source: Forsyth 2002, Self-shadowing Bumpmap using 3D Texture Hardware, section 4.1.
+)~",
 R"~(float bumpshadow_bearing_octant(vec2 v) {
     return bumpshadow_unfold(v, 0.1767767 * bumpshadow_across(v) * inversesqrt(bumpshadow_square(v)));
 }
@@ -118,7 +122,8 @@ R"~(float bumpshadow_bearing_octant(float2 v) {
 )~",
      {0x8fu, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_bearing_diamond",
-R"~()~",
+R"~(// The perimeter of |x| + |y| = 1. No square root.
+)~",
 R"~(float bumpshadow_bearing_diamond(vec2 v) {
     return bumpshadow_unfold(v, 0.25 * bumpshadow_across(v) / max(abs(v.x) + abs(v.y), 1e-30));
 }
@@ -178,7 +183,8 @@ R"~(float3 bumpshadow_emboss(float relief, float3 base, float3 color) {
 )~",
      {0x1000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_eight",
-R"~()~",
+R"~(// The eight factors, in [0, 1].
+)~",
 R"~(struct bumpshadow_eight {
     vec4 layer0;  // 0, 45, 90, 135 degrees
     vec4 layer1;  // 180, 225, 270, 315 degrees
@@ -210,7 +216,7 @@ R"~(bumpshadow_eight bumpshadow_factors_published_cube(float4 texel) {
 )~",
      {0x6000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_layer0_biased_cube",
-R"~(// From a factor cube in which 128 of 255 stands for 0: at the same cost, and nothing leaks.
+R"~(// Factors of layer 0 from a cube in which 128 of 255 stands for 0: at the same cost, and nothing leaks.
 )~",
 R"~(vec4 bumpshadow_layer0_biased_cube(vec4 texel) {
     return clamp(texel * 2.007874 - 1.007874, 0.0, 1.0);
@@ -222,7 +228,8 @@ R"~(float4 bumpshadow_layer0_biased_cube(float4 texel) {
 )~",
      {0x8000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_layer1_biased_cube",
-R"~()~",
+R"~(// Factors of layer 1 from the same.
+)~",
 R"~(vec4 bumpshadow_layer1_biased_cube(vec4 texel) {
     return clamp(texel * -2.007874 + 1.007874, 0.0, 1.0);
 }
@@ -233,7 +240,8 @@ R"~(float4 bumpshadow_layer1_biased_cube(float4 texel) {
 )~",
      {0x10000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_factors_biased_cube",
-R"~()~",
+R"~(// Both.
+)~",
 R"~(bumpshadow_eight bumpshadow_factors_biased_cube(vec4 texel) {
     bumpshadow_eight factors;
     factors.layer0 = bumpshadow_layer0_biased_cube(texel);
@@ -384,7 +392,8 @@ R"~(float2 bumpshadow_fourier_turn(float2 higher, float2 lower, float2 direction
 )~",
      {0x2000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_3",
-R"~()~",
+R"~(// Horizon towards a light, 3 coefficients. texel: decoded; direction: from bumpshadow_fourier_direction.
+)~",
 R"~(float bumpshadow_fourier_3(vec3 texel, vec2 direction) {
     return texel.z + texel.x * direction.x + texel.y * direction.y;
 }
@@ -395,7 +404,8 @@ R"~(float bumpshadow_fourier_3(float3 texel, float2 direction) {
 )~",
      {0x4000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_5",
-R"~()~",
+R"~(// 5 coefficients, the constant from the second texture.
+)~",
 R"~(float bumpshadow_fourier_5(vec4 texel, float constant, vec2 direction) {
     vec2 pair = bumpshadow_fourier_turn(vec2(texel.z, texel.w), vec2(texel.x, texel.y), direction);
     return constant + pair.x * direction.x + pair.y * direction.y;
@@ -408,7 +418,8 @@ R"~(float bumpshadow_fourier_5(float4 texel, float constant, float2 direction) {
 )~",
      {0xa000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_7",
-R"~()~",
+R"~(// 7 coefficients. more: those of the second texture.
+)~",
 R"~(float bumpshadow_fourier_7(vec4 texel, vec3 more, vec2 direction) {
     vec2 pair = bumpshadow_fourier_turn(vec2(more.x, more.y), vec2(texel.z, texel.w), direction);
     return bumpshadow_fourier_5(vec4(texel.x, texel.y, pair.x, pair.y), more.z, direction);
@@ -421,7 +432,8 @@ R"~(float bumpshadow_fourier_7(float4 texel, float3 more, float2 direction) {
 )~",
      {0x1a000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_fourier_9",
-R"~()~",
+R"~(// 9 coefficients, the constant from the third texture.
+)~",
 R"~(float bumpshadow_fourier_9(vec4 texel, vec4 more, float constant, vec2 direction) {
     vec2 pair = bumpshadow_fourier_turn(vec2(more.z, more.w), vec2(more.x, more.y), direction);
     return bumpshadow_fourier_7(texel, vec3(pair.x, pair.y, constant), direction);
@@ -525,7 +537,7 @@ R"~(float bumpshadow_shadow_soft_above(float light, float horizon, float k, floa
 )~",
      {0x1000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_shadow_soft",
-R"~(// The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2019, equation 5.4); c
+R"~(// The same, and 0 for a light below the surface. c = 1: the edge lies inside the shadow (Lengyel 2016, equation 5.4); c
 // = 0.5: it is centered. k from 0 to infinity.
 )~",
 R"~(float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
@@ -538,7 +550,7 @@ R"~(float bumpshadow_shadow_soft(float light, float horizon, float k, float c) {
 )~",
      {0x3000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_shadow_fade",
-R"~(// Shadows that end with distance: the factor up to `start`, 1 from `end` on.
+R"~(// Shadows that end with distance, all three in one unit: the factor up to `start`, 1 from `end` on.
 )~",
 R"~(float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
     return mix(factor, 1.0, min(max(0.0, (distance - start) / max(end - start, 1e-30)), 1.0));
@@ -782,7 +794,7 @@ R"~(float3 bumpshadow_ssbump_normal(float3 masks) {
      {0x14000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_world_red",
 R"~(// The basis concatenated with the way from tangent space to the world, whose axes are unit vectors in the world: once a
-// vertex or a pixel. Any of the sums above then lands in the world.
+// vertex or a pixel. Any of the sums above then lands in the world. This is the vector of the red mask.
 )~",
 R"~(vec3 bumpshadow_ssbump_world_red(vec3 tangent, vec3 normal) {
     return 0.81649658 * tangent + 0.57735027 * normal;
@@ -794,7 +806,8 @@ R"~(float3 bumpshadow_ssbump_world_red(float3 tangent, float3 normal) {
 )~",
      {0x20000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_world_green",
-R"~()~",
+R"~(// The vector of the green mask in the world.
+)~",
 R"~(vec3 bumpshadow_ssbump_world_green(vec3 tangent, vec3 bitangent, vec3 normal) {
     return 0.70710678 * bitangent - 0.40824829 * tangent + 0.57735027 * normal;
 }
@@ -805,7 +818,8 @@ R"~(float3 bumpshadow_ssbump_world_green(float3 tangent, float3 bitangent, float
 )~",
      {0x40000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_world_blue",
-R"~()~",
+R"~(// The vector of the blue mask in the world.
+)~",
 R"~(vec3 bumpshadow_ssbump_world_blue(vec3 tangent, vec3 bitangent, vec3 normal) {
     return 0.57735027 * normal - 0.40824829 * tangent - 0.70710678 * bitangent;
 }
@@ -969,7 +983,7 @@ R"~(float3 bumpshadow_arc_layers(float bearing, float start, float scale, float 
 )~",
      {0x0u, 0x8u, 0x0u, 0x0u}},
     {"bumpshadow_tangent_horizon",
-R"~(// Horizon from the two values.
+R"~(// Horizon from the values of the two layers.
 )~",
 R"~(float bumpshadow_tangent_horizon(float value, float next_value, float part) {
     return mix(value, next_value, part);
@@ -1006,7 +1020,7 @@ R"~(float bumpshadow_vertex_slope(float3 light, float most) {
 )~",
      {0x40000001u, 0x40u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_bearing_exact",
-R"~(// Bearing and slope of a light.
+R"~(// Bearing (x, turns) and slope (y, cut at `most`) of a light; the bearing by bumpshadow_bearing_exact.
 )~",
 R"~(vec2 bumpshadow_vertex_bearing_exact(vec3 light, float most) {
     return vec2(bumpshadow_bearing_exact(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
@@ -1018,7 +1032,8 @@ R"~(float2 bumpshadow_vertex_bearing_exact(float3 light, float most) {
 )~",
      {0x4000001fu, 0xc0u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_bearing_quintic",
-R"~()~",
+R"~(// The same by bumpshadow_bearing_quintic.
+)~",
 R"~(vec2 bumpshadow_vertex_bearing_quintic(vec3 light, float most) {
     return vec2(bumpshadow_bearing_quintic(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
@@ -1029,7 +1044,8 @@ R"~(float2 bumpshadow_vertex_bearing_quintic(float3 light, float most) {
 )~",
      {0x4000002fu, 0x140u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_bearing_cubic",
-R"~()~",
+R"~(// The same by bumpshadow_bearing_cubic.
+)~",
 R"~(vec2 bumpshadow_vertex_bearing_cubic(vec3 light, float most) {
     return vec2(bumpshadow_bearing_cubic(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
@@ -1040,7 +1056,8 @@ R"~(float2 bumpshadow_vertex_bearing_cubic(float3 light, float most) {
 )~",
      {0x4000004fu, 0x240u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_bearing_octant",
-R"~()~",
+R"~(// The same by bumpshadow_bearing_octant.
+)~",
 R"~(vec2 bumpshadow_vertex_bearing_octant(vec3 light, float most) {
     return vec2(bumpshadow_bearing_octant(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
@@ -1051,7 +1068,8 @@ R"~(float2 bumpshadow_vertex_bearing_octant(float3 light, float most) {
 )~",
      {0x4000008fu, 0x440u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_bearing_diamond",
-R"~()~",
+R"~(// The same by bumpshadow_bearing_diamond.
+)~",
 R"~(vec2 bumpshadow_vertex_bearing_diamond(vec3 light, float most) {
     return vec2(bumpshadow_bearing_diamond(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }

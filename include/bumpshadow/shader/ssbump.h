@@ -31,13 +31,15 @@ BUMPSHADOW_FUNCTION vec3 bumpshadow_ssbump_normal(vec3 masks) {
 }
 
 // The basis concatenated with the way from tangent space to the world, whose axes are unit vectors in the world: once a
-// vertex or a pixel. Any of the sums above then lands in the world.
+// vertex or a pixel. Any of the sums above then lands in the world. This is the vector of the red mask.
 BUMPSHADOW_FUNCTION vec3 bumpshadow_ssbump_world_red(vec3 tangent, vec3 normal) {
     return 0.81649658f * tangent + 0.57735027f * normal;
 }
+// The vector of the green mask in the world.
 BUMPSHADOW_FUNCTION vec3 bumpshadow_ssbump_world_green(vec3 tangent, vec3 bitangent, vec3 normal) {
     return 0.70710678f * bitangent - 0.40824829f * tangent + 0.57735027f * normal;
 }
+// The vector of the blue mask in the world.
 BUMPSHADOW_FUNCTION vec3 bumpshadow_ssbump_world_blue(vec3 tangent, vec3 bitangent, vec3 normal) {
     return 0.57735027f * normal - 0.40824829f * tangent - 0.70710678f * bitangent;
 }

@@ -1,6 +1,6 @@
 // Horizons as slices of one channel (encode/tangent_volume.hpp): N slices, slice i at bearing phase + i / N. Values are
 // the stored quantity over what stands for 1, and are compared with a light in the same unit.
-// Source: Forsyth, Self-shadowing Bumpmap using 3D Texture Hardware, sections 3 and 4.
+// Source: Forsyth 2002, Self-shadowing Bumpmap using 3D Texture Hardware, sections 3 and 4.
 
 // Third coordinate of a volume texture that repeats, for one fetch, at level 0: where bearings wrap the coordinate
 // jumps, and implicit derivatives would ask for a coarse level there. offset: 0.5 / N - phase
@@ -31,7 +31,7 @@ BUMPSHADOW_FUNCTION vec3 bumpshadow_arc_layers(float bearing, float start, float
     return vec3(layer, layer + 1.0f, position - layer);
 }
 
-// Horizon from the two values.
+// Horizon from the values of the two layers.
 BUMPSHADOW_FUNCTION float bumpshadow_tangent_horizon(float value, float next_value, float part) {
     return mix(value, next_value, part);
 }

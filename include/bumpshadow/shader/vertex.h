@@ -17,19 +17,23 @@ BUMPSHADOW_FUNCTION float bumpshadow_vertex_slope(vec3 light, float most) {
     return clamp(bumpshadow_slope(light), -most, most);
 }
 
-// Bearing and slope of a light.
+// Bearing (x, turns) and slope (y, cut at `most`) of a light; the bearing by bumpshadow_bearing_exact.
 BUMPSHADOW_FUNCTION vec2 bumpshadow_vertex_bearing_exact(vec3 light, float most) {
     return vec2(bumpshadow_bearing_exact(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
+// The same by bumpshadow_bearing_quintic.
 BUMPSHADOW_FUNCTION vec2 bumpshadow_vertex_bearing_quintic(vec3 light, float most) {
     return vec2(bumpshadow_bearing_quintic(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
+// The same by bumpshadow_bearing_cubic.
 BUMPSHADOW_FUNCTION vec2 bumpshadow_vertex_bearing_cubic(vec3 light, float most) {
     return vec2(bumpshadow_bearing_cubic(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
+// The same by bumpshadow_bearing_octant.
 BUMPSHADOW_FUNCTION vec2 bumpshadow_vertex_bearing_octant(vec3 light, float most) {
     return vec2(bumpshadow_bearing_octant(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
+// The same by bumpshadow_bearing_diamond.
 BUMPSHADOW_FUNCTION vec2 bumpshadow_vertex_bearing_diamond(vec3 light, float most) {
     return vec2(bumpshadow_bearing_diamond(vec2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
