@@ -139,6 +139,9 @@ void make(const std::filesystem::path& folder) {
             hill.push_back(unsigned(4 * (32 - std::abs(x - 32)) + 3 * (32 - std::abs(y - 32))));
     save(folder / "hill.png", png(64, 64, 1, 8, hill));
     save(folder / "block.png", png(32, 32, 1, 8, block));
+    list normals;  // flat
+    for (int i = 0; i < 64 * 64; ++i) normals.insert(normals.end(), {128u, 128u, 255u});
+    save(folder / "normals.png", png(64, 64, 3, 8, normals));
 }
 
 }  // namespace
