@@ -17,6 +17,7 @@
 
 namespace bumpshadow {
 
+// What plan() takes besides map and scene.
 struct plan_options {
     std::uint32_t seed = 1;                       // of the sample
     std::pmr::memory_resource* memory = nullptr;  // null: std::pmr::get_default_resource()

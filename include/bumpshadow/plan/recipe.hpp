@@ -22,6 +22,7 @@
 
 namespace bumpshadow {
 
+// What a recipe is predicted to cost and to get wrong.
 struct plan_figures {
     double mismatch = 0.0;  // share of wrong answers; of pixels of many texels, mean difference of the shadow factor
     double interval = 0.0;  // half width of the 95 % confidence interval of mismatch
@@ -29,6 +30,7 @@ struct plan_figures {
     double bytes = 0.0;     // a texel of the height map
     double bake_seconds = 0.0;  // of the whole map on one thread
     double gpu_cost = 0.0;      // cycles a wave, as shader_cost prints them for RDNA2
+    // Texture fetches of a pixel.
     int fetches = 0;
 };
 
@@ -36,6 +38,7 @@ struct plan_figures {
 // textures: light comes from many bearings, but the platform has neither volumes nor arrays to hold slices.
 enum class plan_obstacle : unsigned char { none, mismatch, degrees, bytes, bake_seconds, gpu_cost, textures };
 
+// Its name as it is written here.
 [[nodiscard]] constexpr const char* name_of(plan_obstacle o) {
     constexpr const char* names[] = {"none", "mismatch", "degrees", "bytes", "bake_seconds", "gpu_cost", "textures"};
     return names[std::size_t(o)];
@@ -43,16 +46,17 @@ enum class plan_obstacle : unsigned char { none, mismatch, degrees, bytes, bake_
 
 // One choice and why, with the number that decided.
 struct plan_line {
-    char text[160] = "";
+    char text[160] = "";  // ends with a 0
 };
 
+// A set-up: how to bake, what to store, how to shade.
 struct recipe {
     // False where no light of the scene is ever blocked: no bake, no texture, no code. Nothing else counts then.
     bool shadows = true;
     // The error that was asked for is met; else `obstacle` says what stands in the way, and this is the best there is.
     plan_obstacle obstacle = plan_obstacle::none;
 
-    // The bake, by the cascade.
+    // The bake, by the cascade: bake_options::steps.
     int steps = bake_options{}.steps;
     double radius = bake_options{}.radius;  // in the unit of texel_size
     int reduced_heights = 1;                // heights are averaged over squares of this side before the bake
@@ -60,14 +64,16 @@ struct recipe {
 
     // The texture.
     int reduction = 1;  // horizons are averaged over squares of this side, of the baked extent
+    // What the texture holds.
     tangent_volume encoding = {};
+    // How slices come of the directions baked.
     slice_fit fit = slice_fit::least_squares;
     // plan() leaves it false: a scene says how near its views come, not how far they go, and a texture that is reduced
     // to its nearest view has done the mips' first work. To be set where views from farther away shimmer; not for the
     // volume of an arc, and of a volume of all bearings not with slice_fit::point.
     bool mips = false;
 
-    // The shader.
+    // The shader: shape of the shadow's edge.
     shadow_edge edge = {};
     bool above = true;  // lights never shine from below the surface
 
@@ -77,8 +83,11 @@ struct recipe {
     // Share of the map's tiles of 32 x 32 texels that no light of the scene shadows: tile_horizons() finds them.
     double free_tiles = 0.0;
 
+    // Of this recipe, from the sample that plan() drew.
     plan_figures predicted = {};
+    // The choices and their reasons, `lines` of them.
     std::array<plan_line, 20> why = {};
+    // Lines of `why` that are there.
     int lines = 0;
 
     // Adds a line, as printf does; without values as it is.
@@ -93,11 +102,11 @@ struct recipe {
     }
 };
 
-// Extent that horizons are baked at.
+// Extent that horizons are baked at, of a height map of this extent; texels.
 [[nodiscard]] inline GLM_CONSTEXPR glm::ivec2 baked_extent(const recipe& r, glm::ivec2 extent) {
     return reduced_extent(extent, r.reduced_heights);
 }
-// Layout of the texture.
+// Layout of the texture for a height map of this extent.
 [[nodiscard]] inline texture_layout layout_of(const recipe& r, glm::ivec2 extent) {
     const glm::ivec2 stored = reduced_extent(baked_extent(r, extent), r.reduction);
     return layout_of(r.encoding, stored, r.mips ? default_mips(stored) : 1);

@@ -16,17 +16,18 @@ namespace bumpshadow {
 struct light_arc {
     double first_bearing = 0.0;  // turns, 0 along +x towards +y; lights lie from here on in growing bearing
     double last_bearing = 1.0;   // ... to here, at most a turn farther
-    double lowest = 5.0;         // elevations above the surface, degrees
-    double highest = 90.0;
+    double lowest = 5.0;         // elevation above the surface, degrees
+    double highest = 90.0;       // degrees, lowest to 90
 };
 
+// The lights of a scene, the error that is bearable, the budgets and the platform.
 struct scene {
     // Lights: the first of these that is not empty counts, else the arc.
     std::span<const glm::dvec3> lights = {};     // directions to far lights that do not move, in tangent space
     std::span<const glm::dvec3> positions = {};  // places of point lights: x, y from texel (0, 0) on, z above the
                                                  // surface that the bumps stand on, all in the unit of texel_size
-    light_arc arc = {};
-    double light_radius = 0.0;  // angular radius in degrees, 0 to 45; 0: hard edges
+    light_arc arc = {};                          // where neither of these says anything
+    double light_radius = 0.0;                   // angular radius in degrees, 0 to 45; 0: hard edges
 
     // Error that is bearable.
     double mismatch = 0.015;  // share of (texel, light) that is lit or shadowed wrongly
@@ -37,14 +38,15 @@ struct scene {
     double bake_seconds = std::numeric_limits<double>::infinity();  // on one thread of this machine
     double gpu_cost = std::numeric_limits<double>::infinity();      // cycles a wave as shader_cost prints them
 
-    // Textures that the platform has, besides flat ones of 8 bits.
-    // Without volumes and arrays there is one slice for all bearings alike.
+    // Textures that the platform has, besides flat ones of 8 bits: volumes, arrays, BC4. Without volumes and arrays
+    // there is one slice for all bearings alike.
     bool volumes = true, arrays = true, bc4 = true;
     bool has_normals = true;        // a normal map exists; else one is proposed
     bool has_lightmaps = false;     // light is baked in three directions: masks serve it without a light's direction
     double texels_per_pixel = 1.0;  // of the nearest view, at least 1; above 8 as 8
 };
 
+// Checks all of it, and names what is wrong.
 [[nodiscard]] inline status check(const scene& s) {
     const auto positive = [](const char* name, double value) {
         return value > 0.0 ? status{} : status{error::not_positive, name, value};
