@@ -9,6 +9,7 @@
 #   sh cmake/run.sh windows                       the tests for Windows by MinGW, run under Wine
 #   sh cmake/run.sh arm                           for 64-bit Arm, run under QEMU, twice: the compiler's vectors and xsimd
 #   sh cmake/run.sh web                           golden bytes and a bake in WebAssembly by Emscripten, run under Node
+#   sh cmake/run.sh docs                          pages of the headers and the README; writes build/docs/html
 #   sh cmake/run.sh full                          these, slow tests, more random maps, other builds, clang-tidy, all
 #                                                 measurements
 #
@@ -87,10 +88,11 @@ look_for_check_tools() {
     has_tool run-clang-tidy || others="$others clang-tidy"
     has_tool cppcheck || others="$others cppcheck"
     has_tool valgrind || others="$others valgrind"
+    has_tool doxygen || others="$others doxygen"
 }
 
 # Installs what the arguments (clang, xsimd, shaders, properties, consumers, checks, measure, plots, costs, windows, arm,
-# web) and every build need and do not have.
+# web, docs) and every build need and do not have.
 set_up() {
     tools='' headers='' others=''
     has_tool "${CXX:-c++}" || look_for_tool g++ g++
@@ -111,6 +113,7 @@ set_up() {
             measure) has_tool astcenc || others="$others astcenc" ;;
             plots) has_tool gnuplot || others="$others gnuplot-nox" ;;
             costs) look_for_cost_tools ;;
+            docs) look_for_tool doxygen doxygen ;;
             properties) has_header rapidcheck.h || others="$others librapidcheck-dev" ;;
             windows)
                 look_for_tool x86_64-w64-mingw32-g++-posix g++-mingw-w64-x86-64-posix
@@ -369,6 +372,12 @@ case $command in
     web)
         set_up web
         web
+        ;;
+    docs)
+        set_up docs
+        cd "$root"
+        cmake --preset release -B build/docs -DBUMPSHADOW_BUILD_TESTS=OFF -DBUMPSHADOW_BUILD_EXAMPLES=OFF
+        cmake --build build/docs --target bumpshadow_docs
         ;;
     full)
         set_up windows arm web clang xsimd shaders properties consumers measure plots checks
