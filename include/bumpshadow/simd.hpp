@@ -20,6 +20,7 @@
 #endif
 
 // The few operations that the hot loops need, on `width` floats at a time. Memory need not be aligned.
+//   whole      values from 0 to below 2^31 without their fractions
 // Of two packs a, b, taken as one row of 2 width values:
 //   next<n>    values n ... n + width - 1, n = 1 if not given
 //   even, odd  every other one, from the first or from the second
@@ -35,15 +36,19 @@ inline constexpr int width = int(pack::size);
 inline pack load(const float* from) { return pack::load_unaligned(from); }
 inline void store(float* to, pack a) { a.store_unaligned(to); }
 inline pack splat(float a) { return pack(a); }
+inline pack add(pack a, pack b) { return a + b; }
 inline pack subtract(pack a, pack b) { return a - b; }
 inline pack multiply(pack a, pack b) { return a * b; }
+inline pack divide(pack a, pack b) { return a / b; }
 inline pack multiply_add(pack a, pack b, pack c) { return xsimd::fma(a, b, c); }
+inline pack whole(pack a) { return xsimd::to_float(xsimd::to_int(a)); }
 // GCC 12 warns of a value that AVX-512 leaves undefined on purpose.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 inline pack larger(pack a, pack b) { return (xsimd::max)(a, b); }
+inline pack smaller(pack a, pack b) { return (xsimd::min)(a, b); }
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic pop
 #endif
@@ -79,11 +84,39 @@ inline pack splat(float a, std::integer_sequence<int, Lane...>) {
     return pack{(static_cast<void>(Lane), a)...};
 }
 inline pack splat(float a) { return splat(a, std::make_integer_sequence<int, width>()); }
+inline pack add(pack a, pack b) { return a + b; }
 inline pack subtract(pack a, pack b) { return a - b; }
 inline pack multiply(pack a, pack b) { return a * b; }
+inline pack divide(pack a, pack b) { return a / b; }
 inline pack multiply_add(pack a, pack b, pack c) { return a * b + c; }
-inline pack larger(pack a, pack b) { return a > b ? a : b; }
 inline pack select_greater(pack a, pack b, pack yes, pack no) { return a > b ? yes : no; }
+inline pack whole(pack a) {
+    typedef int integers __attribute__((vector_size(4 * width)));
+    return __builtin_convertvector(__builtin_convertvector(a, integers), pack);
+}
+// Said by name, since GCC makes a comparison and a choice of a > b ? a : b where one is a constant.
+inline pack larger(pack a, pack b) {
+#if defined(__AVX512F__)
+    return _mm512_maskz_max_ps(0xffff, a, b);
+#elif defined(__AVX__)
+    return _mm256_max_ps(a, b);
+#elif defined(__SSE__)
+    return _mm_max_ps(a, b);
+#else
+    return a > b ? a : b;
+#endif
+}
+inline pack smaller(pack a, pack b) {
+#if defined(__AVX512F__)
+    return _mm512_maskz_min_ps(0xffff, a, b);
+#elif defined(__AVX__)
+    return _mm256_min_ps(a, b);
+#elif defined(__SSE__)
+    return _mm_min_ps(a, b);
+#else
+    return a < b ? a : b;
+#endif
+}
 
 template <int... Lane>
 inline pack shuffle(pack a, pack b) {
@@ -134,17 +167,29 @@ inline void store(float* to, const pack& a) {
 inline pack splat(float a) {
     return for_lanes([&](int) { return a; });
 }
+inline pack add(const pack& a, const pack& b) {
+    return for_lanes([&](int i) { return a.lane[i] + b.lane[i]; });
+}
 inline pack subtract(const pack& a, const pack& b) {
     return for_lanes([&](int i) { return a.lane[i] - b.lane[i]; });
 }
 inline pack multiply(const pack& a, const pack& b) {
     return for_lanes([&](int i) { return a.lane[i] * b.lane[i]; });
 }
+inline pack divide(const pack& a, const pack& b) {
+    return for_lanes([&](int i) { return a.lane[i] / b.lane[i]; });
+}
 inline pack multiply_add(const pack& a, const pack& b, const pack& c) {
     return for_lanes([&](int i) { return a.lane[i] * b.lane[i] + c.lane[i]; });
 }
+inline pack whole(const pack& a) {
+    return for_lanes([&](int i) { return float(int(a.lane[i])); });
+}
 inline pack larger(const pack& a, const pack& b) {
     return for_lanes([&](int i) { return a.lane[i] > b.lane[i] ? a.lane[i] : b.lane[i]; });
+}
+inline pack smaller(const pack& a, const pack& b) {
+    return for_lanes([&](int i) { return a.lane[i] < b.lane[i] ? a.lane[i] : b.lane[i]; });
 }
 inline pack select_greater(const pack& a, const pack& b, const pack& yes, const pack& no) {
     return for_lanes([&](int i) { return a.lane[i] > b.lane[i] ? yes.lane[i] : no.lane[i]; });
