@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -13,138 +12,197 @@
 
 namespace bumpshadow {
 
+// How blocks are encoded. Once each value has a step between the ends, the best ends for these steps come from a
+// straight line through them, by least squares; so what has to be found is the steps. They are tried as even divisions
+// of the range of the values, a few ways for all values and a few without those near 0 and 1, which are free in the
+// second form, and the line that leaves the smallest error wins.
+//
+// Blocks lie side by side, one a lane. The bytes do not depend on how many, nor on whether a product and a sum are
+// rounded once or twice: what is added up is whole numbers, exact in floats, and where a product is not exact a bound
+// stands between it and the sum.
 namespace bc4_detail {
 
-// Candidates for the ends are judged side by side, one a lane.
-inline constexpr int lanes = 16;
+using simd::pack;
 
-struct candidates {
-    float low[lanes], high[lanes];  // in bytes, whole numbers
-    float error[lanes];             // squared, in bytes
+inline constexpr float byte = 32.0f, most = 255.0f * byte;  // values are in 32nds of a byte
+inline constexpr float grid = 1024.0f;                      // places in the range of a block's values
+
+// The step of a value at place p of the range, 0 to 1: first + steps * p, rounded.
+struct division {
+    float steps, first;  // multiples of 1/16
 };
 
-[[nodiscard]] inline float squared(float v) { return v * v; }
-
-// Steps: 7 where all eight values lie between the ends, 5 where 0 and 255 are there besides.
-template <int Steps>
-void judge(const float* values, candidates& c) {
-    using namespace simd;
-    const pack zero = splat(0.0f), one = splat(1.0f), steps = splat(float(Steps));
-    const pack to_whole = splat(12582912.0f);  // adding 1.5 * 2^23 rounds to the nearest whole number
-    float scales[lanes];
-    for (int i = 0; i < lanes; ++i) scales[i] = float(Steps) / (std::max)(c.high[i] - c.low[i], 1.0f);
-    for (int i = 0; i < lanes; i += width) {
-        const pack low = load(c.low + i), scale = load(scales + i);
-        const pack step = multiply(subtract(load(c.high + i), low), splat(1.0f / float(Steps)));
-        pack sum = zero;
-        for (int t = 0; t < 16; ++t) {
-            const pack above = subtract(splat(values[t]), low);
-            const pack position = multiply(above, scale), positive = select_greater(position, zero, position, zero);
-            const pack inside = select_greater(positive, steps, steps, positive);
-            const pack place = subtract(multiply_add(inside, one, to_whole), to_whole);
-            const pack miss = subtract(multiply(place, step), above);
-            pack error = multiply(miss, miss);
-            if constexpr (Steps == 5) {
-                const pack outer = splat((std::min)(squared(values[t]), squared(255.0f - values[t])));
-                error = select_greater(error, outer, outer, error);
-            }
-            sum = multiply_add(error, one, sum);
-        }
-        store(c.error + i, sum);
-    }
-}
+// Chosen one after the other, each as the one that lowered the error of fitted slices of six maps most.
+inline constexpr division all_inside[] = {{7.375f, -0.1875f}, {7.375f, -0.375f}, {7.375f, 0.0f},
+                                          {6.0f, 0.0f},       {6.5f, 0.5f},      {5.0f, 0.0f}};
+inline constexpr division without_near[] = {{5.375f, -0.1875f}, {4.0f, 0.0f}};
+inline constexpr division without_far[] = {{5.25f, -0.1875f}, {5.0f, 0.0f}};
+inline constexpr float near_edge = 6.0f * byte, far_edge = 16.0f * byte;
 
 struct ends {
-    float low, high, error;
+    pack low, high;  // whole bytes
+    pack error;      // squared, before they were
 };
 
-[[nodiscard]] inline ends best_of(const candidates& c, ends so_far) {
-    for (int i = 0; i < lanes; ++i)
-        if (c.error[i] < so_far.error) so_far = {c.low[i], c.high[i], c.error[i]};
-    return so_far;
-}
+[[nodiscard]] inline pack rounded(pack positive) { return simd::whole(simd::add(positive, simd::splat(0.5f))); }
 
-// The 4 x 4 pairs of these lows and highs; where they cross, both become the lower one.
-inline void pair(const float (&low)[4], const float (&high)[4], candidates& c) {
-    for (int i = 0; i < lanes; ++i) {
-        c.low[i] = (std::min)((std::max)(low[i % 4], 0.0f), 255.0f);
-        c.high[i] = (std::min)((std::max)(high[i / 4], c.low[i]), 255.0f);
-    }
-}
-
-// Ends that minimize the squared error for the values as they are assigned to steps between `e`; `e` where that is not
-// determined.
-template <int Steps>
-[[nodiscard]] ends least_squares(const float* values, ends e) {
-    const float range = e.high - e.low;
-    const float scale = float(Steps) / (std::max)(range, 1.0f), step = range * (1.0f / float(Steps));
-    float count = 0.0f, sum = 0.0f, square = 0.0f, value_sum = 0.0f, product = 0.0f;
+// Ends of the form with so many steps, 7 or 5. For 5 without the values whose `edge`, the distance to 0 or to `most`,
+// is not above the margin.
+template <int Steps, std::size_t Count>
+[[nodiscard]] ends fit(const pack (&values)[16], const pack (&edges)[16], float margin,
+                       const division (&divisions)[Count]) {
+    using namespace simd;
+    const pack zero = splat(0.0f), one = splat(1.0f), above_all = splat(most), steps = splat(float(Steps));
+    const pack limit = splat(margin);
+    const auto inside = [&](int t, pack yes, pack no) {
+        return Steps == 7 ? yes : select_greater(edges[t], limit, yes, no);
+    };
+    pack low = above_all, high = zero, count = splat(16.0f), outside = zero;
     for (int t = 0; t < 16; ++t) {
-        const float value = values[t], position = (value - e.low) * scale + 0.5f;
-        const float inside = position > 0.0f ? (position < float(Steps) ? position : float(Steps)) : 0.0f;
-        const float code = float(int(inside));
-        if (Steps == 5 && (std::min)(squared(value), squared(255.0f - value)) <= squared(e.low + code * step - value))
-            continue;
-        const float part = code * (1.0f / float(Steps));
-        count += 1.0f;
-        sum += part;
-        square += part * part;
-        value_sum += value;
-        product += part * value;
+        low = smaller(low, inside(t, values[t], above_all));
+        high = larger(high, inside(t, values[t], zero));
     }
-    const float determinant = count * square - sum * sum;
-    if (!(determinant > 1e-3f)) return e;
-    const float slope = (count * product - sum * value_sum) / determinant;
-    const float low = (value_sum - slope * sum) / count;
-    return {low, low + slope, e.error};
-}
-
-// From a first guess: alternates between assigning values and fitting ends, and looks at the whole numbers around.
-template <int Steps>
-[[nodiscard]] ends refine(const float* values, ends best) {
-    candidates c;
-    for (int round = 0; round < 2; ++round) {
-        const float before = best.error;
-        const ends fitted = least_squares<Steps>(values, best);
-        const float low = std::floor(fitted.low), high = std::floor(fitted.high);
-        pair({low - 1.0f, low, low + 1.0f, low + 2.0f}, {high - 1.0f, high, high + 1.0f, high + 2.0f}, c);
-        judge<Steps>(values, c);
-        best = best_of(c, best);
-        if (!(best.error < before)) break;
-    }
-    return best;
-}
-
-// Ends of a block in which all values lie between them.
-[[nodiscard]] inline ends search_inner(const float* values, float least, float most) {
-    const float inset = (most - least) * (1.0f / 14.0f);
-    candidates c;
-    const auto rounded = [](float v) { return std::floor(v + 0.5f); };
-    pair({rounded(least), rounded(least + 0.5f * inset), rounded(least + inset), rounded(least + 2.0f * inset)},
-         {rounded(most), rounded(most - 0.5f * inset), rounded(most - inset), rounded(most - 2.0f * inset)}, c);
-    judge<7>(values, c);
-    return refine<7>(values, best_of(c, {0.0f, 0.0f, 1e30f}));
-}
-
-// Ends of a block where 0 and 255 come for free: they have to fit the rest, and what the rest is depends on them. Tried
-// from what lies beyond growing margins of both.
-[[nodiscard]] inline ends search_outer(const float* values) {
-    float low[4], high[4];
-    constexpr float margins[4] = {0.5f, 4.0f, 16.0f, 48.0f};
-    for (int i = 0; i < 4; ++i) {
-        low[i] = 255.0f;
-        high[i] = 0.0f;
+    if constexpr (Steps == 5) {
+        count = zero;
         for (int t = 0; t < 16; ++t) {
-            if (values[t] > margins[i]) low[i] = (std::min)(low[i], values[t]);
-            if (values[t] < 255.0f - margins[i]) high[i] = (std::max)(high[i], values[t]);
+            const pack edge = inside(t, zero, edges[t]);
+            outside = multiply_add(edge, edge, outside);
+            count = add(count, inside(t, one, zero));
         }
-        low[i] = std::floor(low[i] + 0.5f);
-        high[i] = std::floor(high[i] + 0.5f);
+        count = larger(count, one);
+        high = larger(high, low);
     }
-    candidates c;
-    pair(low, high, c);
-    judge<5>(values, c);
-    return refine<5>(values, best_of(c, {0.0f, 0.0f, 1e30f}));
+    const pack range = subtract(high, low), to_grid = divide(splat(grid), larger(range, one));
+    const pack from_grid = multiply(range, splat(1.0f / grid)), share = divide(one, count);
+    pack places[16], sum = zero, squares = zero;
+    for (int t = 0; t < 16; ++t) {
+        // What is outside has place and step 0, and is not felt.
+        places[t] = inside(t, rounded(larger(multiply(subtract(values[t], low), to_grid), zero)), zero);
+        sum = add(sum, places[t]);
+        squares = multiply_add(places[t], places[t], squares);
+    }
+
+    // Lines that lead beyond 0 or 1 by more than two bytes are of no use.
+    const pack least = subtract(splat(-2.0f * byte), low), greatest = subtract(splat(most + 2.0f * byte), low);
+    pack gain = zero, first = zero, last = splat(grid), step_sum = zero, step_squares = zero;
+    if constexpr (Steps == 7) {
+        // Where all do, what is left are ends at the extremes.
+        pack misses = zero;
+        for (int t = 0; t < 16; ++t) {
+            const pack step = rounded(multiply(places[t], splat(7.0f / grid)));
+            const pack miss = subtract(multiply(steps, places[t]), multiply(step, splat(grid)));
+            misses = multiply_add(miss, miss, misses);
+            step_sum = add(step_sum, step);
+            step_squares = multiply_add(step, step, step_squares);
+        }
+        const pack hit = subtract(squares, divide(misses, splat(49.0f)));
+        gain = larger(subtract(larger(multiply(count, hit), zero), larger(multiply(sum, sum), zero)), zero);
+    }
+    for (const division& d : divisions) {
+        const pack scale = splat(d.steps / grid), offset = splat(d.first + 0.5f);
+        pack s = zero, ss = zero, sp = zero;
+        for (int t = 0; t < 16; ++t) {
+            const pack step = whole(multiply_add(places[t], scale, offset));
+            s = add(s, step);
+            ss = multiply_add(step, step, ss);
+            sp = multiply_add(step, places[t], sp);
+        }
+        const pack spread = subtract(multiply(count, ss), multiply(s, s));
+        const pack common = subtract(multiply(count, sp), multiply(s, sum)),
+                   slope = divide(common, larger(spread, one));
+        const pack start = multiply(subtract(sum, larger(multiply(slope, s), zero)), share);
+        const pack end = add(start, larger(multiply(slope, steps), zero));
+        pack g = multiply(common, slope);
+        g = select_greater(least, multiply(start, from_grid), zero, g);
+        g = select_greater(multiply(end, from_grid), greatest, zero, g);
+        first = select_greater(g, gain, start, first);
+        last = select_greater(g, gain, end, last);
+        step_sum = select_greater(g, gain, s, step_sum);
+        step_squares = select_greater(g, gain, ss, step_squares);
+        gain = larger(gain, g);
+    }
+
+    ends result;
+    const pack line = larger(multiply(gain, share), zero), mean = larger(multiply(multiply(sum, sum), share), zero);
+    const pack missed = subtract(subtract(squares, mean), line);
+    result.error = add(larger(multiply(multiply(missed, from_grid), from_grid), zero), outside);
+    // A low end that is rounded moves the high end that is best with it.
+    const pack at_low = add(low, larger(multiply(first, from_grid), subtract(zero, low)));
+    const pack at_high = add(low, smaller(multiply(last, from_grid), subtract(above_all, low)));
+    const pack unit = splat(byte), bytes = splat(1.0f / byte);
+    result.low = multiply(rounded(multiply(at_low, bytes)), unit);
+    const pack pull = divide(subtract(multiply(steps, step_sum), step_squares), larger(step_squares, one));
+    const pack moved = smaller(multiply(pull, subtract(result.low, at_low)), above_all);
+    const pack best_high = larger(smaller(subtract(at_high, moved), above_all), result.low);
+    result.high = multiply(rounded(multiply(best_high, bytes)), unit);
+    return result;
+}
+
+// Blocks of values in [0, 1], one a lane; texel t of all of them is at [t].
+inline void encode(const pack (&texels)[16], std::byte* to, int blocks) {
+    using namespace simd;
+    const pack zero = splat(0.0f), one = splat(1.0f), above_all = splat(most);
+    pack values[16], edges[16], nearest = above_all;
+    for (int t = 0; t < 16; ++t) {
+        const pack scaled = multiply(texels[t], above_all), positive = select_greater(scaled, zero, scaled, zero);
+        values[t] = rounded(smaller(positive, above_all));
+        edges[t] = smaller(values[t], subtract(above_all, values[t]));
+        nearest = smaller(nearest, edges[t]);
+    }
+    ends best = fit<7>(values, edges, 0.0f, all_inside);
+    pack steps = splat(7.0f);
+    // Free extremes help only where there are values next to them; 1.3 is what rounding to 8 bits makes.
+    const pack close = select_greater(splat(24.0f * byte), nearest, best.error, zero), fine = splat(1.3f * byte * byte);
+    float lanes[width];
+    store(lanes, close);
+    if (*std::max_element(lanes, lanes + width) > 1.3f * byte * byte) {
+        const auto try_ends = [&](const ends& e) {
+            const pack error = select_greater(close, fine, e.error, splat(1e12f));
+            best.low = select_greater(best.error, error, e.low, best.low);
+            best.high = select_greater(best.error, error, e.high, best.high);
+            steps = select_greater(best.error, error, splat(5.0f), steps);
+            best.error = smaller(best.error, error);
+        };
+        try_ends(fit<5>(values, edges, near_edge, without_near));
+        try_ends(fit<5>(values, edges, far_edge, without_far));
+    }
+
+    // Equal ends make the second form, too. Codes count from the first end: 0 is it, 1 the second one.
+    const pack range = subtract(best.high, best.low), six = splat(6.0f);
+    steps = select_greater(range, zero, steps, splat(5.0f));
+    const pack first = select_greater(steps, six, best.high, best.low);
+    const pack second = select_greater(steps, six, best.low, best.high), span = subtract(second, first);
+    const pack scale = select_greater(range, zero, divide(steps, select_greater(range, zero, span, one)), zero);
+    const pack before_last = subtract(steps, splat(0.5f)), free = select_greater(steps, six, splat(1e12f), zero);
+    pack codes[2];
+    for (int half = 0; half < 2; ++half) {
+        pack sum = zero;
+        for (int t = 8 * half + 7; t >= 8 * half; --t) {
+            const pack beyond = subtract(values[t], first);
+            const pack step = rounded(smaller(larger(multiply(beyond, scale), zero), steps));
+            const pack miss = subtract(multiply(steps, beyond), multiply(step, span));
+            const pack edge = multiply(steps, edges[t]);
+            const pack between =
+                select_greater(step, before_last, one, add(step, select_greater(step, zero, one, zero)));
+            const pack extreme = select_greater(values[t], splat(0.5f * most), splat(7.0f), six);
+            const pack code =
+                select_greater(multiply(miss, miss), larger(multiply(edge, edge), free), extreme, between);
+            sum = multiply_add(sum, splat(8.0f), code);  // 24 bits: exact
+        }
+        codes[half] = sum;
+    }
+
+    const pack bytes = splat(1.0f / byte);
+    float numbers[4][width];
+    store(numbers[0], multiply(first, bytes));
+    store(numbers[1], multiply(second, bytes));
+    store(numbers[2], codes[0]);
+    store(numbers[3], codes[1]);
+    for (int i = 0; i < blocks; ++i, to += 8) {
+        const auto bits = [&](int n) { return std::uint64_t(std::uint32_t(numbers[n][i])); };
+        const std::uint64_t block = bits(0) | bits(1) << 8 | bits(2) << 16 | bits(3) << 40;
+        for (int j = 0; j < 8; ++j) to[j] = static_cast<std::byte>((block >> (8 * j)) & 0xffu);
+    }
 }
 
 }  // namespace bc4_detail
@@ -171,71 +229,40 @@ inline void decode_bc4(const std::byte* block, float* values) {
     for (int t = 0; t < 16; ++t) values[t] = palette[(codes >> (3 * t)) & 7u];
 }
 
-// A block of 16 values in [0, 1]: a search for the ends that make the squared error small, in both forms of the block.
-// Deterministic. Blocks of one value hold the nearest 8 bits; the sum of squares is never above what ends at the
-// extremes make, whose error is up to 1/14 of the block's range. Accuracy: within 6 % in squares of trying all
-// ends. 8 and 16 fitted slices are wrong (lit or shadowed) for 2.98 and 1.61 % of lights (mean of six maps), by stb_dxt
-// for 3.10 and 1.76 %. Takes about 60 ns a value on one core with 512-bit vectors.
-inline void encode_bc4(const float* values, std::byte* block) {
-    using namespace bc4_detail;
-    float bytes[16];
-    float least = 255.0f, most = 0.0f;
-    for (int t = 0; t < 16; ++t) {
-        const float v = values[t];
-        bytes[t] = v > 0.0f ? (v < 1.0f ? 255.0f * v : 255.0f) : 0.0f;
-        least = (std::min)(least, bytes[t]);
-        most = (std::max)(most, bytes[t]);
-    }
-    int first, second;
-    bool outer = false;
-    ends e = search_inner(bytes, least, most);
-    // Free extremes help only where there are values next to them; 1.3 is what rounding to 8 bits makes.
-    if (e.error > 1.3f && most > least && (least < 24.0f || most > 231.0f)) {
-        const ends other = search_outer(bytes);
-        if (other.error < e.error) {
-            e = other;
-            outer = true;
+// A row of blocks from up to four rows of values in [0, 1]; NaN counts as 0. Rows that are missing repeat the last one,
+// as do texels beyond `width`. row(r): values of row r, `width` of them.
+//
+// A block depends on its own values alone, and its bytes are the same on all machines. Blocks of one value hold the
+// nearest 8 bits. Accuracy, on fitted slices of six maps: in squares 5 % above trying all ends (3 to 8 % a map), where
+// ends at the extremes are 50 to 130 % above; no block is worse than those by more than 8 %. Takes 2.5 ns a value on
+// one core with 512-bit vectors, 4 with 256 and 8 with 128.
+template <class Row>
+void encode_bc4_row(const Row& row, int rows, int width, std::byte* to) {
+    using namespace simd;
+    constexpr int blocks = simd::width, texels = 4 * blocks;
+    for (int x = 0; x < width; x += texels, to += 8 * blocks) {
+        const int count = (std::min)(texels, width - x);
+        pack values[16];
+        for (int r = 0; r < 4; ++r) {
+            float line[texels];
+            const float* const from = row((std::min)(r, rows - 1)) + x;
+            std::copy_n(from, count, line);
+            std::fill(line + count, line + texels, from[count - 1]);
+            const pack a = load(line), b = load(line + blocks), c = load(line + 2 * blocks),
+                       d = load(line + 3 * blocks);
+            const pack even_low = even(a, b), even_high = even(c, d), odd_low = odd(a, b), odd_high = odd(c, d);
+            values[4 * r] = even(even_low, even_high);
+            values[4 * r + 1] = even(odd_low, odd_high);
+            values[4 * r + 2] = odd(even_low, even_high);
+            values[4 * r + 3] = odd(odd_low, odd_high);
         }
+        bc4_detail::encode(values, to, (count + 3) / 4);
     }
-    const int low = int(e.low), high = int(e.high);
-    outer = outer || low == high;
-    first = outer ? low : high;
-    second = outer ? high : low;
-
-    const float range = e.high - e.low, steps = outer ? 5.0f : 7.0f;
-    const float scale = steps / (std::max)(range, 1.0f), step = range / steps;
-    std::uint64_t codes = 0;
-    for (int t = 0; t < 16; ++t) {
-        const float position = (bytes[t] - e.low) * scale + 0.5f;
-        const int place = int(position > 0.0f ? (position < steps ? position : steps) : 0.0f);
-        std::uint64_t code;
-        if (outer) {
-            code = place == 0 ? 0u : place == 5 ? 1u : std::uint64_t(place + 1);
-            const float error = squared(e.low + float(place) * step - bytes[t]);
-            if (squared(bytes[t]) < error && bytes[t] <= 127.5f) code = 6;
-            if (squared(255.0f - bytes[t]) < error && bytes[t] > 127.5f) code = 7;
-        } else {
-            code = place == 7 ? 0u : place == 0 ? 1u : std::uint64_t(8 - place);
-        }
-        codes |= code << (3 * t);
-    }
-    block[0] = static_cast<std::byte>(first);
-    block[1] = static_cast<std::byte>(second);
-    for (int i = 0; i < 6; ++i) block[2 + i] = static_cast<std::byte>((codes >> (8 * i)) & 0xffu);
 }
 
-// A row of blocks from up to four rows of values; those that are missing repeat the last one, as do texels beyond
-// `width`. row(r): values of row r, at least `width` of them. Encode(values, block): encode_bc4 or one like it.
-template <class Row, class Encode>
-void encode_block_row(const Row& row, int rows, int width, std::byte* to, const Encode& encode) {
-    for (int x = 0; x < width; x += 4, to += 8) {
-        float values[16];
-        for (int r = 0; r < 4; ++r) {
-            const float* const from = row((std::min)(r, rows - 1));
-            for (int i = 0; i < 4; ++i) values[4 * r + i] = from[(std::min)(x + i, width - 1)];
-        }
-        encode(values, to);
-    }
+// One block of 16 values. A row of them takes hardly longer.
+inline void encode_bc4(const float* values, std::byte* block) {
+    encode_bc4_row([&](int r) { return values + 4 * r; }, 4, 4, block);
 }
 
 }  // namespace bumpshadow

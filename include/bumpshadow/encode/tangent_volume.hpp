@@ -134,8 +134,8 @@ inline void write_band(const slice_rows& band, int slices, const texture& out, i
     for (int i = 0; i < slices; ++i) {
         std::byte* const to = slice_bytes(out, level, i);
         if (format == texel_format::bc4)
-            encode_block_row([&](int r) { return band.row(i, r); }, band.count, width,
-                             to + std::size_t(y / 4) * row_bytes, encode_bc4);
+            encode_bc4_row([&](int r) { return band.row(i, r); }, band.count, width,
+                           to + std::size_t(y / 4) * row_bytes);
         else
             for (int r = 0; r < band.count; ++r)
                 write_row(format, band.row(i, r), width, to + std::size_t(y + r) * row_bytes);
