@@ -32,7 +32,7 @@ namespace bumpshadow {
 //           shadows: with 8 slices the mean shadow factor (waves, lights of 10 to 60 degrees) is off by up to 15, 29
 //           and 30 percentage points at the levels of 4, 2 and 1 slices. Mips want an array.
 //   array   Two fetches. All levels have all slices, and so can have the shadows of level 0 (make_mips: within 1
-//           percentage point; bc4, whose blocks of small levels span much, 1, 2.5 and 5 at levels 1, 2 and 3 of
+//           percentage point; bc4, whose blocks of small levels span much, 1, 3 and 5 at levels 1, 2 and 3 of
 //           maps of 256 texels).
 //   flat    One slice, one fetch, and no bearing.
 // Over an arc of bearings (slice_set) arc_coordinate_of has the constants: a volume is clamped along its third
