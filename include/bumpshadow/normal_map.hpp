@@ -95,18 +95,16 @@ void for_rows(int rows, Executor&& execute, const Body& body) {
 }
 
 // The steepest slope, so that squares stay finite.
-inline constexpr float steepest = 1e18f;
+inline constexpr double steepest = 1e150;
 
-// Slope between two samples. Differences of 8 and 16 bits are exact; doubles may be beyond float until they are scaled.
+// Slope between two samples. The halves' difference is finite, whatever they are, and so is the slope.
 template <height_sample Sample>
-[[nodiscard]] inline float slope(Sample a, Sample b, double factor) {
-    float slope;
-    if constexpr (std::is_integral_v<Sample>)
-        slope = float(int(a) - int(b)) * float(factor);
-    else if constexpr (std::is_same_v<Sample, float>)
-        slope = (a - b) * float(factor);
+[[nodiscard]] inline double slope(Sample a, Sample b, double factor) {
+    double slope;
+    if constexpr (std::is_same_v<Sample, double>)
+        slope = 2.0 * ((0.5 * a - 0.5 * b) * factor);
     else
-        slope = float((a - b) * factor);
+        slope = (double(a) - double(b)) * factor;
     slope = slope < steepest ? slope : steepest;
     return slope > -steepest ? slope : -steepest;
 }
@@ -114,7 +112,7 @@ template <height_sample Sample>
 // Slope at texel (x, y) along the axis (dx, dy): from one neighbor to the other; one that is missing or a hole is
 // replaced by the texel itself.
 template <height_sample Sample>
-[[nodiscard]] float slope(const height_map<Sample>& heights, int x, int y, int dx, int dy) {
+[[nodiscard]] double slope(const height_map<Sample>& heights, int x, int y, int dx, int dy) {
     Sample ends[2];
     int span = 0;
     for (int side = 0; side < 2; ++side) {
@@ -125,14 +123,14 @@ template <height_sample Sample>
         ends[side] = there ? sample_at(heights, nx, ny) : sample_at(heights, x, y);
         span += there ? 1 : 0;
     }
-    if (span == 0) return 0.0f;
+    if (span == 0) return 0.0;
     const double unit = unit_height(heights) / (dx != 0 ? heights.texel_size.x : heights.texel_size.y);
     return slope(ends[1], ends[0], unit / double(span));
 }
 
-[[nodiscard]] inline glm::vec3 normal(float slope_x, float slope_y) {
-    const float inverse = 1.0f / std::sqrt(1.0f + slope_x * slope_x + slope_y * slope_y);
-    return {-slope_x * inverse, -slope_y * inverse, inverse};
+[[nodiscard]] inline glm::vec3 normal(double slope_x, double slope_y) {
+    const double inverse = 1.0 / std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y);
+    return {float(-slope_x * inverse), float(-slope_y * inverse), float(inverse)};
 }
 
 }  // namespace normal_detail
@@ -177,12 +175,11 @@ template <height_sample Sample, executor Executor = serial>
             const Sample* down = heights.samples + below * heights.row_stride + first.x;
             float *nx = out.row(0, row), *ny = out.row(1, row), *nz = out.row(2, row);
             for (int x = left - first.x; x < right - first.x; ++x) {
-                const float sx = normal_detail::slope(here[x + 1], here[x - 1], half_x);
-                const float sy = normal_detail::slope(down[x], up[x], half_y);
-                const float inverse = 1.0f / std::sqrt(1.0f + sx * sx + sy * sy);
-                nx[x] = -sx * inverse;
-                ny[x] = -sy * inverse;
-                nz[x] = inverse;
+                const glm::vec3 n = normal_detail::normal(normal_detail::slope(here[x + 1], here[x - 1], half_x),
+                                                          normal_detail::slope(down[x], up[x], half_y));
+                nx[x] = n.x;
+                ny[x] = n.y;
+                nz[x] = n.z;
             }
         }
         for (int x = right; x < first.x + size.x; ++x) whole(x);

@@ -173,6 +173,19 @@ TEST_CASE("texels that are not square") {
     check_marked(all_directions(map, 10, 10), {31, 0, 1}, 0.8);
 }
 
+TEST_CASE("a map in any unit has the same neighborhoods") {
+    const field map = rough({40, 23}, 9);
+    const slopes wanted = bake(map.view(), turns(8));
+    for (const double unit : {1e-100, 1e-30, 1e-7, 1e7, 1e30, 1e100}) {
+        height_map<float> other = map.view();
+        other.height_scale = unit;
+        other.texel_size = {unit, unit};
+        const slopes found = bake(other, turns(8));
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            CHECK(found[i] == doctest::Approx(double(wanted[i])).epsilon(1e-5));
+    }
+}
+
 TEST_CASE("neighborhoods continue over each kind of edge") {
     // From (0, 2) and (0, 0) of a 5 by 4 map towards -x.
     const glm::dvec2 west[] = {{-1.0, 0.0}};

@@ -18,6 +18,7 @@
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/cascade.hpp>
 #include <bumpshadow/horizon/exact.hpp>
+#include <bumpshadow/horizon/neighborhood.hpp>
 #include <bumpshadow/horizon/sweep.hpp>
 #include <bumpshadow/horizon_map.hpp>
 
@@ -26,6 +27,7 @@
 #endif
 
 #include "stability/cases.hpp"
+#include "stability/encoders.hpp"
 #include "stability/missing.hpp"
 
 namespace {
@@ -56,18 +58,10 @@ struct result {
     double largest = 0.0;
     int not_finite = 0;
     std::string refused;
+    bool for_a_reason = false;  // of the method's own; anything else that is refused is broken
 };
 
 double degrees(double slope, double unit) { return std::atan(slope / unit) * 180.0 / std::numbers::pi; }
-
-template <bs::height_sample Sample>
-bs::height_map<Sample> view(const stiff_map& map, const std::vector<Sample>& samples) {
-    bs::height_map<Sample> heights = bs::tight_height_map(samples.data(), map.extent);
-    heights.height_scale = map.height_scale;
-    heights.texel_size = map.texel_size;
-    heights.edge = map.edge;
-    return heights;
-}
 
 class trial {
 public:
@@ -97,10 +91,12 @@ private:
         if (which == fine) options.steps = 48;
         const bs::status s = which == sweep           ? bs::bake_sweep(heights, directions_, out, options)
                              : which == sweep_classic ? bs::bake_sweep_classic(heights, directions_, out, options)
+                             : which == neighborhood  ? bs::bake_neighborhood(heights, directions_, out, options)
                                                       : bs::bake_cascade(heights, directions_, out, options);
         result r;
         if (!s) {
-            r.refused = s.code() == bs::error::not_supported ? "not supported" : s.message().c_str();
+            r.refused = s.message().c_str();
+            r.for_a_reason = s.code() == bs::error::not_supported || which == neighborhood;
             return r;
         }
         // Every texel, not only those of the sample.
@@ -154,8 +150,9 @@ int main(int argc, char** argv) {
         for (int m = 0; m < method_count; ++m) {
             const result r = look(method(m));
             if (!r.refused.empty()) {
-                std::printf("| %s | %s | | | | | %s |\n", one.name.c_str(), method_names[m], r.refused.c_str());
-                broken += r.refused != "not supported";
+                std::printf("| %s | %s | | | | | %s: %s |\n", one.name.c_str(), method_names[m],
+                            r.for_a_reason ? "refused" : "BROKEN", r.refused.c_str());
+                broken += r.for_a_reason ? 0 : 1;
                 continue;
             }
             error bound = promised[m];
@@ -178,6 +175,7 @@ int main(int argc, char** argv) {
             std::printf("| %s | %s | %.3g | %.3g | %.3g | %g / %g | %s |\n", one.name.c_str(), method_names[m],
                         r.of.mean, r.of.percentile_99, r.largest, bound.mean, bound.percentile_99, verdict.c_str());
         }
+        broken += check_encoders(one);
         std::fflush(stdout);
     }
     broken += check_missing_heights();

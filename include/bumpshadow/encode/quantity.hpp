@@ -13,21 +13,25 @@ namespace bumpshadow {
 // The quantity with the slope that stands for 1. Horizons steeper than max_slope are stored as 1, those below 0 as 0.
 struct horizon_scale {
     quantity stored = quantity::slope;  // what is stored of an elevation
-    // Tangent of the elevation that stands for 1, at least smallest_max_slope. Infinity is allowed for sine and angle:
-    // all elevations up to 90 degrees.
+    // Tangent of the elevation that stands for 1, smallest_max_slope to largest_max_slope; for sine and angle any larger
+    // one, and infinity: all elevations up to 90 degrees.
     float max_slope = 4.0f;
 };
 
 // The inverse of a smaller one, times a light straight up, would overflow.
 inline constexpr float smallest_max_slope = 1e-18f;
+// The inverse of a larger one is denormal, which many programs flush to 0.
+inline constexpr float largest_max_slope = 1e37f;
 
 // Checks max_slope.
 [[nodiscard]] inline status check(const horizon_scale& scale) {
     if (!(scale.max_slope > 0.0f)) return {error::not_positive, "max_slope", double(scale.max_slope)};
     if (!(scale.max_slope >= smallest_max_slope))
         return {error::out_of_range, "max_slope", double(scale.max_slope), double(smallest_max_slope)};
-    if (scale.stored == quantity::slope && !is_finite(scale.max_slope))
-        return {error::not_finite, "max_slope", double(scale.max_slope)};
+    if (scale.stored != quantity::slope) return {};
+    if (!is_finite(scale.max_slope)) return {error::not_finite, "max_slope", double(scale.max_slope)};
+    if (!(scale.max_slope <= largest_max_slope))
+        return {error::out_of_range, "max_slope", double(scale.max_slope), double(largest_max_slope)};
     return {};
 }
 

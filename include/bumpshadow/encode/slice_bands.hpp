@@ -124,7 +124,7 @@ inline void fetch(const float* from, int count) {
 // Slopes to stored values in [0, 1]; count is at most `chunk`; `to` is padded.
 inline void convert(const horizon_scale& scale, const float* from, int count, float* to, lanes_seen& seen) {
     using namespace simd;
-    const float limit = (std::min)(scale.max_slope, 1e18f);
+    const float limit = scale.stored == quantity::slope ? scale.max_slope : (std::min)(scale.max_slope, 1e18f);
     const float factor = scale.stored == quantity::slope ? 1.0f / scale.max_slope : 1.0f;
     const pack zero = splat(0.0f), one = splat(1.0f), most = splat(limit), to_unit = splat(factor);
     const pack ceiling = scale.stored == quantity::slope ? one : most;  // a rounded factor could lead above 1

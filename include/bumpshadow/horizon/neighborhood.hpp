@@ -43,7 +43,7 @@ inline constexpr float absent = std::numeric_limits<float>::lowest();
 // A texel of the neighborhood.
 struct tap {
     std::ptrdiff_t offset;  // in the plane, from the central texel
-    float inverse_square;   // of its distance, 1 / unit^2
+    float inverse_square;   // of its distance, in lengths of the smaller texel size
 };
 
 struct neighborhood {
@@ -87,7 +87,8 @@ struct neighborhood {
 
 // Heights with a margin that resolves the edge, and the taps sorted by direction.
 struct tables {
-    float* heights;  // of texel (0, 0)
+    float*
+        heights;  // of texel (0, 0), over the smaller texel size, since squares of small and large units are no floats
     std::ptrdiff_t stride;
     tap* taps;
     std::array<std::size_t, neighborhood_directions + 1> first;
@@ -110,7 +111,8 @@ template <height_sample Sample>
 
 template <height_sample Sample>
 void fill(const tables& to, const height_map<Sample>& heights, glm::ivec2 reach) {
-    const double unit = unit_height(heights), reference = reference_sample(heights);
+    const double unit = unit_height(heights) / (std::min)(heights.texel_size.x, heights.texel_size.y);
+    const double reference = reference_sample(heights);
     for (std::int64_t y = -reach.y; y < heights.extent.y + reach.y; ++y) {
         const std::int64_t row = resolve_edge(y, heights.extent.y, heights.edge);
         float* const target = to.heights + y * to.stride;
@@ -204,7 +206,8 @@ template <height_sample Sample, executor Executor = serial>
     std::array<std::size_t, neighborhood_directions> next{};
     std::copy_n(table.first.begin(), next.size(), next.begin());
     around.marks([&](int n, int x, int y, double distance) {
-        table.taps[next[std::size_t(n)]++] = {y * table.stride + x, float(1.0 / (distance * distance))};
+        const double inverse = (std::min)(heights.texel_size.x, heights.texel_size.y) / distance;
+        table.taps[next[std::size_t(n)]++] = {y * table.stride + x, float(inverse * inverse)};
     });
     constexpr int side = neighborhood_average / 2;
     for (const glm::dvec2& d : directions)

@@ -343,7 +343,7 @@ float bumpshadow_angle(vec3 light) { return atan(bumpshadow_slope(light)); }
 //
 // Normals as textures store them, to unit normals in tangent space (+y along growing v). `y` is 1 for a map whose y
 // points along growing v (y-down, D3D) and -1 for one that points the other way (y-up, GL). Error of 8 bits, mean and
-// largest: 0.17 and 0.35 degrees, in the partial-derivative form 0.15 and 0.32 times max_slope.
+// largest: 0.17 and 0.39 degrees, in the partial-derivative form 0.15 and 0.32 times max_slope.
 
 // stored: the three channels, in [0, 1]; (1, 1, 1) / 2, which has no direction, gives straight up.
 vec3 bumpshadow_normal(vec3 stored, float y) {

@@ -339,7 +339,7 @@ float bumpshadow_angle(float3 light) { return atan(bumpshadow_slope(light)); }
 //
 // Normals as textures store them, to unit normals in tangent space (+y along growing v). `y` is 1 for a map whose y
 // points along growing v (y-down, D3D) and -1 for one that points the other way (y-up, GL). Error of 8 bits, mean and
-// largest: 0.17 and 0.35 degrees, in the partial-derivative form 0.15 and 0.32 times max_slope.
+// largest: 0.17 and 0.39 degrees, in the partial-derivative form 0.15 and 0.32 times max_slope.
 
 // stored: the three channels, in [0, 1]; (1, 1, 1) / 2, which has no direction, gives straight up.
 float3 bumpshadow_normal(float3 stored, float y) {
