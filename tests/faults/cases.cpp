@@ -19,6 +19,10 @@
 #include <bumpshadow/measure/elevation.hpp>
 #include <bumpshadow/measure/flip.hpp>
 #include <bumpshadow/measure/sample.hpp>
+#include <bumpshadow/normal_map.hpp>
+#include <bumpshadow/pixels.hpp>
+#include <bumpshadow/reference/shade.hpp>
+#include <bumpshadow/reference/shadow.hpp>
 #include <bumpshadow/shader/bake_plan.hpp>
 
 #include "support/horizons.hpp"
@@ -263,6 +267,51 @@ void add_measures(std::vector<producer>& all) {
                    }});
 }
 
+// Normals and pictures, which take no memory.
+void add_pictures(std::vector<producer>& all) {
+    static const std::vector<float> bumpy = [] {
+        std::vector<float> values(required_size(extent, 3));
+        static_cast<void>(bake_normals(field().view(), normal_map{.values = values, .extent = extent}));
+        return values;
+    }();
+    // Views of normals are of floats that may be written; these are not.
+    static std::vector<float> storage = bumpy;
+    static const normal_map normals{.values = storage, .extent = extent};
+    all.push_back({"bake_normals", floats(required_size(extent, 3)), 0,
+                   [](outputs& o, const from&, const any_executor& execute) {
+                       return bake_normals(field().view(), normal_map{.values = o.numbers, .extent = extent}, {},
+                                           execute);
+                   },
+                   false});
+    static const std::vector<std::byte> gray(required_size(extent, 4), std::byte(99));
+    static const const_pixels picture{.bytes = gray, .extent = extent, .channels = 4};
+    all.push_back({"encode_normals", bytes(gray.size()), 0,
+                   [](outputs& o, const from&, const any_executor& execute) {
+                       return encode_normals(normals, {}, pixels{.bytes = o.bytes, .extent = extent}, execute);
+                   },
+                   false});
+    all.push_back({"decode_normals", floats(required_size(extent, 3)), 0,
+                   [](outputs& o, const from&, const any_executor& execute) {
+                       return decode_normals(picture, {}, normal_map{.values = o.numbers, .extent = extent}, execute);
+                   },
+                   false});
+    // Row by row, and pixel by pixel.
+    static const tangent_volume volume{.slices = {.count = 8}, .scale = {.max_slope = 2.0f}};
+    static const texture_layout layout = layout_of(volume, extent);
+    static const std::vector<std::byte> slices(layout.required_size(), std::byte(50));
+    using shadow = encoded_shadow<tangent_volume>;
+    static const shadow with{.encoding = volume, .textures = {slices, layout}, .edge = {8.0f, 1.0f}};
+    for (const bool near : {false, true})
+        all.push_back({near ? "shade, a near light" : "shade, a far light", floats(required_size(extent, 3)), 0,
+                       [near](outputs& o, const from&, const any_executor& execute) {
+                           shade_options options{.normals = normals, .diffuse = picture, .specular = glm::vec3(0.2f)};
+                           if (near) options.light = {.kind = light_kind::point, .position = {20.0f, 10.0f, 5.0f}};
+                           return shade(options, with, flat_surface{extent},
+                                        rgb_image{.values = o.numbers, .extent = extent}, execute);
+                       },
+                       false});
+}
+
 }  // namespace
 
 std::vector<producer> all_producers() {
@@ -271,6 +320,7 @@ std::vector<producer> all_producers() {
     add_packers(all);
     add_mips(all);
     add_measures(all);
+    add_pictures(all);
     return all;
 }
 

@@ -7,7 +7,10 @@
 
 #include <doctest/doctest.h>
 
+#include <bumpshadow/plan.hpp>
+
 #include "faults/cases.hpp"
+#include "support/shapes.hpp"
 
 using namespace faults;
 using bumpshadow::error;
@@ -50,6 +53,31 @@ TEST_CASE("memory that runs out at any allocation is a status; nothing leaks and
         // One block up front, as scratch.hpp says.
         CHECK(failed == (p.memory ? 1 : 0));
     }
+}
+
+// It takes memory again and again: of each call that it makes, one after the other.
+TEST_CASE("a plan whose memory runs out at any allocation is a status; nothing leaks and the recipe stays") {
+    const glm::ivec2 extent(24, 20);
+    shapes::noise random(5);
+    const auto field =
+        shapes::sampled<float>(extent, [&](double x, double) { return (x > 9.0 ? 3.0 : 0.0) + random.uniform(); });
+    const no_default nothing_else;
+    int failed = 0;
+    for (;; ++failed) {
+        CAPTURE(failed);
+        REQUIRE(failed < 10000);
+        counting memory(failed);
+        bumpshadow::recipe recipe;
+        recipe.steps = 777;
+        const status s = bumpshadow::plan(field.view(), bumpshadow::scene{}, recipe, {.memory = &memory});
+        CHECK(memory.out == 0);
+        CHECK((recipe.steps == 777) == !s);
+        if (s) break;
+        CHECK(s.code() == error::out_of_memory);
+        CHECK(recipe.lines == 0);
+    }
+    MESSAGE(failed, " allocations");
+    CHECK(failed > 0);
 }
 
 TEST_CASE("scratch of the stated size is enough, and one byte less is refused by name; nothing is written") {
