@@ -11,17 +11,28 @@
 
 #include "common/file.hpp"
 
-extern char** environ;
+// POSIX leaves it to the program; glibc declares it, too.
+extern char** environ;  // NOLINT(readability-redundant-declaration)
 
 namespace examples {
 
-glsl_compiler::glsl_compiler(std::string program) : program_(std::move(program)) {
+namespace {
+
+std::filesystem::path new_folder() {
     std::string pattern = (std::filesystem::temp_directory_path() / "shader_cost.XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr) throw failure("cannot make a folder " + pattern);
-    folder_ = pattern;
+    return pattern;
+}
+
+}  // namespace
+
+glsl_compiler::glsl_compiler(std::string program, std::filesystem::path folder)
+    : program_(std::move(program)), folder_(std::move(folder)) {}
+
+// Once the other constructor is done, whatever is thrown leads to the destructor.
+glsl_compiler::glsl_compiler(std::string program) : glsl_compiler(std::move(program), new_folder()) {
     std::string output;
     if (run({"--version"}, output) == 0) return;
-    std::filesystem::remove_all(folder_);
     throw failure("cannot run " + program_ +
                   " (Debian, Ubuntu: glslang-tools), or --glslang has to name glslangValidator");
 }

@@ -20,6 +20,7 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> compile(const std::string& name, const std::string& glsl) const;
 
 private:
+    glsl_compiler(std::string program, std::filesystem::path folder);
     // Exit code, or -1; `output` receives what is printed.
     [[nodiscard]] int run(const std::vector<std::string>& arguments, std::string& output) const;
 

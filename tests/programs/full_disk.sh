@@ -7,6 +7,12 @@
 . "$(dirname "$0")/check.sh"
 programs=$program
 map=in/block.png
+echo '{}' >scene.json
+# What programs put aside while they work; whoever runs them.
+mkdir tmp
+chmod 1777 tmp
+TMPDIR=$work/tmp
+export TMPDIR
 
 # refuses PROGRAM TEXT ARGUMENTS: as refuse does, for a program by name; standard output does not matter, since programs
 # that measure print first. $limit: blocks of 512 bytes that a file may have; $user: who runs it.
@@ -37,6 +43,8 @@ writers() {
     refuses bake "$1 $2/a.raw" in/bumps.png -o "$2/a.raw" --encoding tangent
     refuses shade "$1 $2/a.png" in/bumps.png -o "$2/a.png"
     refuses demo "$1 $2/" in/bumps.png -o "$2"
+    refuses plan "$1 $2/a.json" scene.json in/bumps.png --json "$2/a.json"
+    refuses report "$1 $2/" in/bumps.png -o "$2" --only bake --quick --repeats 1
     refuses benchmark "$1 $2/a.json" $map --repeats 1 --sample 1 --json "$2/a.json"
     # These write to temporary folders of their own first.
     refuses encodings 'cannot write' in/bumps.png --repeats 1 --texels 1 --json "$2/a.json"
@@ -86,6 +94,8 @@ elif command -v setpriv >/dev/null 2>&1 &&
 fi
 if [ -n "$user" ]; then
     writers 'cannot write' out/closed
+    # Whose measuring takes minutes, elsewhere.
+    refuses plan 'cannot write out/closed/a.json' --proof --json out/closed/a.json
     [ "$(cat out/closed/a.f32)" = old ] || fail "a file of a closed folder is gone"
 else
     echo "skipped: root may write everywhere, and there is no setpriv that can read $programs as somebody else"
@@ -105,4 +115,5 @@ else
 fi
 
 chmod 755 out/closed
+[ -z "$(ls tmp)" ] || fail "temporary files left: $(ls tmp)"
 finish
