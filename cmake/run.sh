@@ -17,6 +17,7 @@
 # real height maps with a MANIFEST.tsv; tests that need it are skipped where it is not set. BUMPSHADOW_HLSL_COMPILERS
 # names a folder with d3dcompiler_47.dll and dxcompiler.dll (default: that of "npm install webgpu" here,
 # node_modules/webgpu/dist/win32-x64); with them, wine64 and g++-mingw-w64-x86-64-posix FXC and DXC are tested, too.
+# CXXFLAGS=-Werror makes an error of every warning of every build that is new; without it newer compilers may warn.
 set -eu
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
@@ -237,9 +238,14 @@ random_properties() {
     fi
 }
 
+# Of all programs and tests, which need no building for it.
 tidy() {
     if has_tool run-clang-tidy; then
-        (cd "$root" && run-clang-tidy -quiet -p build/clang "^$root/(examples|tests)/")
+        (
+            cd "$root"
+            cmake --preset clang -B build/tidy -DBUMPSHADOW_BUILD_BENCHMARKS=ON -DBUMPSHADOW_TEST_HEADERS=OFF
+            run-clang-tidy -quiet -p build/tidy "^$root/(examples|tests)/"
+        )
     else
         say "clang-tidy skipped: not here"
     fi
@@ -269,8 +275,7 @@ fuzz() {
     )
 }
 
-# What runs in several threads, under the thread sanitizer. There is none of these for memory that was never written:
-# clang's needs a standard library built for it, which no distribution has. Valgrind looks for that instead.
+# What runs in several threads, under the thread sanitizer.
 thread_sanitizer() {
     say "thread sanitizer"
     (
@@ -280,6 +285,23 @@ thread_sanitizer() {
         cmake --build build/thread --target bumpshadow_tests
         ctest --test-dir build/thread --output-on-failure --no-tests=error \
             --tests-regex '^(horizon|encode|reference|measure|plan|faults|scratch|normal_map|factor_cube)'
+    )
+}
+
+# What depends on memory that was never written, where clang's sanitizer for it can tell: it takes for unwritten what a
+# standard library writes that was not built for it, as no distribution's is. So these print by printf and have none of
+# its trees, streams and files, and its strings are compiled with them. Valgrind looks at the programs.
+memory_sanitizer() {
+    say "memory sanitizer"
+    (
+        cd "$root"
+        flags="-O1 -g1 -fsanitize=memory -fsanitize-memory-track-origins -fno-sanitize-recover=all"
+        cmake --preset debug -B build/memory -DBUMPSHADOW_BUILD_EXAMPLES=OFF -DBUMPSHADOW_TEST_HEADERS=OFF \
+            -DCMAKE_CXX_COMPILER=clang++ "-DCMAKE_CXX_FLAGS_DEBUG=$flags -D_GLIBCXX_EXTERN_TEMPLATE=0"
+        cmake --build build/memory --target bumpshadow_stability fuzz_bake_replay
+        build/memory/tests/bumpshadow_stability
+        # Without a folder: random inputs alone.
+        build/memory/tests/fuzz/fuzz_bake_replay
     )
 }
 
@@ -296,8 +318,8 @@ under_valgrind() {
             *) flags='' ;;
         esac
         cmake --preset release -B build/valgrind -DBUMPSHADOW_NATIVE=OFF -DBUMPSHADOW_TEST_HEADERS=OFF \
-            "-DCMAKE_CXX_FLAGS=-g1 $flags"
-        cmake --build build/valgrind --target bake shade snippets program_test_images
+            "-DCMAKE_CXX_FLAGS=${CXXFLAGS-} -g1 $flags"
+        cmake --build build/valgrind --target bake shade plan demo snippets program_test_images
         sh tests/programs/valgrind.sh "$root/build/valgrind/examples" \
             "$root/build/valgrind/tests/programs/program_test_images" "$root/build/valgrind/work"
     )
@@ -391,11 +413,12 @@ case $command in
         variant portable -DBUMPSHADOW_NATIVE=OFF
         # doctest's own switch for a build without exceptions; the programs need them.
         bare="-fno-exceptions -fno-rtti -DDOCTEST_CONFIG_NO_EXCEPTIONS_BUT_WITH_ALL_ASSERTS"
-        variant bare -DBUMPSHADOW_BUILD_EXAMPLES=OFF "-DCMAKE_CXX_FLAGS=$bare"
+        variant bare -DBUMPSHADOW_BUILD_EXAMPLES=OFF "-DCMAKE_CXX_FLAGS=${CXXFLAGS-} $bare"
         windows
         arm
         web
         thread_sanitizer
+        memory_sanitizer
         under_valgrind
         tidy
         fuzz

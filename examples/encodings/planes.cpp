@@ -140,7 +140,8 @@ score judge_layers(const sample_map& map, const planes& channels, const bs::slic
             return channels.values[4 * std::size_t(layer) + channel].data();
         };
         if (encoding.grouping == bs::slice_grouping::four) {
-            const glm::vec3 at = shader::bumpshadow_grouped_layers(position, float(channels.values.size() / 4));
+            const std::size_t layers = channels.values.size() / 4;
+            const glm::vec3 at = shader::bumpshadow_grouped_layers(position, float(layers));
             const float *const x = plane(at.x, 0), *const y = plane(at.x, 1), *const z = plane(at.x, 2),
                                *const w = plane(at.x, 3), *const next = plane(at.y, 0);
             for (std::size_t i = 0; i < found.size(); ++i)

@@ -65,7 +65,7 @@ struct stored {
 
 // What filtering gives at the center of every texel of a map of that extent, for a layer of an array or a slice of a
 // volume.
-[[nodiscard]] std::vector<glm::vec4> texel_centers(const stored& from, int index, glm::ivec2 extent);
+[[nodiscard]] std::vector<glm::vec4> texel_centers(const stored& texture, int index, glm::ivec2 extent);
 
 // The shader's bearing of a direction.
 [[nodiscard]] float shader_bearing(bumpshadow::bearing_function function, glm::dvec2 direction);

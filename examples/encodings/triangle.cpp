@@ -128,8 +128,8 @@ private:
     // Of a texel that the high bits draw: filtering between texels gives that one alone.
     [[nodiscard]] glm::vec2 center(std::uint32_t random) const {
         const int texel = int((std::uint64_t(random) * map_.texels()) >> 32);
-        return {(float(texel % map_.extent.x) + 0.5f) / float(map_.extent.x),
-                (float(texel / map_.extent.x) + 0.5f) / float(map_.extent.y)};
+        const int x = texel % map_.extent.x, y = texel / map_.extent.x;
+        return {(float(x) + 0.5f) / float(map_.extent.x), (float(y) + 0.5f) / float(map_.extent.y)};
     }
 
     const sample_map& map_;

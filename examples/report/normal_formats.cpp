@@ -66,7 +66,10 @@ void for_blocks(glm::ivec2 extent, const Body& body) {
     });
 }
 
-double blocks_of(glm::ivec2 extent) { return double((extent.x + 3) / 4) * double((extent.y + 3) / 4); }
+double blocks_of(glm::ivec2 extent) {
+    const glm::ivec2 blocks = (extent + 3) / 4;
+    return double(blocks.x) * double(blocks.y);
+}
 
 // A color that occurs, as a normal in units of its bytes.
 struct entry {

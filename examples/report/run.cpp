@@ -50,7 +50,7 @@ void run_sections(std::span<const report_section> sections, const std::vector<re
         .quick = all.run.quick,
         .samples = samples,
         .add = [&](record r) { all.records.push_back(std::move(r)); },
-        .show = [&](report_picture p) { all.pictures.push_back(save(folder, p, all.pictures.size())); },
+        .show = [&](const report_picture& p) { all.pictures.push_back(save(folder, p, all.pictures.size())); },
         .step = {}};
     double seconds = 0.0;
     for (const report_section& section : sections) seconds += section.seconds(context);

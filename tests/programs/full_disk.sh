@@ -44,7 +44,7 @@ writers() {
     refuses shade "$1 $2/a.png" in/bumps.png -o "$2/a.png"
     refuses demo "$1 $2/" in/bumps.png -o "$2"
     refuses plan "$1 $2/a.json" scene.json in/bumps.png --json "$2/a.json"
-    refuses report "$1 $2/" in/bumps.png -o "$2" --only bake --quick --repeats 1
+    refuses report "$2/" in/bumps.png -o "$2" --only bake --quick --repeats 1
     refuses benchmark "$1 $2/a.json" $map --repeats 1 --sample 1 --json "$2/a.json"
     # These write to temporary folders of their own first.
     refuses encodings 'cannot write' in/bumps.png --repeats 1 --texels 1 --json "$2/a.json"

@@ -35,6 +35,14 @@ for map in "$block" "$holes" "$open"; do
     sound shade $map -o out/a.png --encoding ssbump
     sound shade $map -o out/a.png --encoding traced
 done
+# Every kind of scene, and what each makes of its map.
+for scene in '{}' '{"lights": [{"azimuth": 30, "elevation": 20}]}' '{"positions": [[9, 9, 5]], "bytes": 2}' \
+    '{"arc": {"azimuth": [0, 180], "elevation": [5, 60]}, "texels_per_pixel": 3, "normals": false}'; do
+    echo "$scene" >scene.json
+    sound plan scene.json in/block.png --height-scale 4 --json out/plan.json
+done
+sound plan scene.json in/block.png --height-scale 4 --measure
+sound demo in/block.png -o out/demo
 sound snippets
 sound snippets --list
 sound snippets --decoder fourier-9 --dialect hlsl
