@@ -25,6 +25,7 @@ public:
     work_folder() {
         std::random_device random;
         std::error_code error;
+        // cppcheck-suppress useInitializationList ; it takes the two above
         path_ =
             std::filesystem::temp_directory_path(error) / format("bumpshadow-encodings-%08x%08x", random(), random());
         if (error || !std::filesystem::create_directory(path_, error))

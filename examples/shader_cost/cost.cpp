@@ -83,7 +83,7 @@ struct compiler::state {
 
     void make_layout() {
         std::array<VkDescriptorSetLayoutBinding, textures + 1> bindings{};
-        for (std::uint32_t i = 0; i <= textures; ++i) {
+        for (std::uint32_t i = 0; i < bindings.size(); ++i) {
             bindings[i].binding = i;
             bindings[i].descriptorType =
                 i < textures ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;

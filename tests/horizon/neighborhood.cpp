@@ -60,7 +60,7 @@ slopes bake(const height_map<float>& heights, std::span<const glm::dvec2> direct
 double slope_of(double sine) { return sine / std::sqrt(1.0 - sine * sine); }
 
 // What the texel at (x, y) stores in each of the 32 directions.
-std::vector<double> all_directions(const field& map, int x, int y, bake_options options = {}) {
+std::vector<double> all_directions(const field& map, int x, int y, const bake_options& options = {}) {
     const slopes values = bake(map.view(), turns(32), options);
     std::vector<double> at;
     for (std::size_t n = 0; n < 32; ++n)

@@ -256,7 +256,7 @@ TEST_CASE("a light on the horizon is lit, and half lit with a centered edge") {
         CAPTURE(t.name);
         for (int i = 0; i < 16; ++i) {
             // A sum of Fourier coefficients is 0 but for rounding.
-            const float above = t.name.find("fourier") == 0 ? 1e-5f : 0.0f;
+            const float above = t.name.starts_with("fourier") ? 1e-5f : 0.0f;
             const glm::vec3 light(std::cos(float(i)), std::sin(float(i)), above);
             CHECK(t.factor(middle, light, {}) == 1.0f);
             CHECK(t.factor(middle, light, {8.0f, 1.0f}) == 1.0f);
@@ -277,7 +277,7 @@ TEST_CASE("horizons come out at their bearings and between them") {
     const auto slope = [](int, int, double turns) { return 1.0 + 0.5 * std::cos(2 * std::numbers::pi * turns); };
     const every_encoding encodings({4, 4}, slope);
     for (const tried& t : encodings.all) {
-        if (t.step == 0.0 || t.name.find("fourier") == 0) continue;
+        if (t.step == 0.0 || t.name.starts_with("fourier")) continue;
         CAPTURE(t.name);
         const bool eight = t.name.find("sine ") == 0 || t.name.find("two") == 0;
         const auto function = eight ? bearing_function::exact : bearing_function::cubic;
@@ -300,7 +300,7 @@ TEST_CASE("Fourier series come out at every bearing") {
         const auto value = [&](double turns) { return 0.5 + 0.2 * std::cos(2 * std::numbers::pi * (turns - phase)); };
         const every_encoding encodings({4, 4}, [&](int, int, double turns) { return 4 * value(turns); });
         for (const tried& t : encodings.all) {
-            if (t.name.find("fourier, slope") != 0) continue;
+            if (!t.name.starts_with("fourier, slope")) continue;
             CAPTURE(t.name);
             for (int i = 0; i < 24; ++i) {
                 const double found = double(t.horizon_in_light(middle, 2.0f * toward(i / 24.0, 40)));

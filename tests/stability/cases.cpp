@@ -53,7 +53,7 @@ stiff_map in_units(stiff_map map, double heights, glm::dvec2 texels) {
     map.slope_unit = std::max(1.0, heights / texels.x);
     return map;
 }
-stiff_map with(stiff_map map, bumpshadow::bake_options options) {
+stiff_map with(stiff_map map, const bumpshadow::bake_options& options) {
     map.options = options;
     return map;
 }
@@ -159,7 +159,7 @@ std::vector<stiff_case> scales() {
 
 std::vector<stiff_case> bases() {
     std::vector<stiff_case> all;
-    const auto add = [&](std::string name, bumpshadow::bake_options options) {
+    const auto add = [&](std::string name, const bumpshadow::bake_options& options) {
         all.push_back({std::move(name), [=] { return with(made(waves), options); }});
     };
     add("curvature 10^-30", {.curvature = {1e-30, 1e-30}});

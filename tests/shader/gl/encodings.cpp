@@ -347,7 +347,8 @@ TEST_CASE("with every edge the factor is in [0, 1] and that of C++") {
     const job_inputs in = bad_inputs();
     for (const shader_run::backend& with : shader_run::all_backends) {
         if (!runs(with)) continue;
-        const encoded& e = *groups(false, with)[0][0];
+        const std::vector<group> all = groups(false, with);
+        const encoded& e = *all[0][0];
         for (const auto& one : edges) {
             INFO(with.name, ", ", one.defines);
             check_bad(e, bad_reference(e, in),
