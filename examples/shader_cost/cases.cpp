@@ -83,6 +83,16 @@ void add_slices(std::vector<shader_case>& all) {
                    bearing("cubic") + fetch_volume + slope +
                        "    float factor = bumpshadow_shadow_soft(l, horizon, k, 1.0);\n"
                        "    return bumpshadow_shadow_fade(factor, uv.x, some_k, some_offset);\n"});
+    for (const char* taps : {"2", "4"})
+        all.push_back(
+            {group, std::string("cubic, centered, ") + taps + " x " + taps + " places of a pixel", volume, "float",
+             bearing("cubic") + "    float l = bumpshadow_slope(light) * some_k, sum = 0.0;\n    const float n = " +
+                 taps + ".0;\n    for (float i = 0.0; i < n * n; i += 1.0) {\n" +
+                 "        vec2 at = uv + bumpshadow_pixel_place(i, n) * some_offset;\n" +
+                 "        float w = bumpshadow_volume_coordinate(bearing, offset);\n" +
+                 "        float horizon = textureLod(horizons, vec3(at, w), 0.0).x;\n" +
+                 "        sum += bumpshadow_shadow_soft_above(l, horizon, k, 0.5);\n    }\n" +
+                 "    return sum / (n * n);\n"});
     std::string uniforms = bearing("cubic") + fetch_volume + slope + soft.code;
     uniforms.replace(uniforms.find("offset)"), 6, "some_offset");
     uniforms.replace(uniforms.find(", k,"), 3, ", some_k");

@@ -12,10 +12,10 @@
 namespace bumpshadow {
 
 // What compose() of shader/snippets.hpp puts together for a recipe with shadows; one without them needs no code.
-// The short name bumpshadow_shadow has c = 1 or 0.5, whichever is nearer to edge.c of the recipe. Of an edge with
-// another c, as pixels of many texels have, call bumpshadow_shadow_soft_above (without `above`:
-// bumpshadow_shadow_soft), which comes along, with edge.k and edge.c. The constants of the decoder are
-// coordinate_offset() or arc_coordinate_of() of the recipe's encoding.
+// The short name bumpshadow_shadow has c = 1 or 0.5, whichever is nearer to edge.c of the recipe; plan() gives 0.5, or
+// a hard edge. The constants of the decoder are coordinate_offset() or arc_coordinate_of() of the recipe's encoding. Of
+// a recipe with taps average bumpshadow_shadow over the horizons at uv + x dFdx(uv) + y dFdy(uv), x and y those of
+// bumpshadow_pixel_place(i, taps), i from 0 to taps * taps - 1.
 [[nodiscard]] inline shader_text::choice shader_choice(const recipe& r) {
     using shader_text::decoder, shader_text::edge;
     shader_text::choice chosen;
@@ -33,6 +33,7 @@ namespace bumpshadow {
         chosen.shadow = r.above ? edge::soft_above : edge::soft;
     else
         chosen.shadow = r.above ? edge::centered_above : edge::centered;
+    chosen.places = r.taps > 1;
     return chosen;
 }
 

@@ -386,6 +386,13 @@ float bumpshadow_shadow_fade(float factor, float distance, float start, float en
     return lerp(factor, 1.0, min(max(0.0, (distance - start) / max(end - start, 1e-30)), 1.0));
 }
 
+// Place i of taps x taps of a pixel that covers many texels, row by row: from its middle, in sides of the pixel. The mean
+// of their factors is the share of the pixel that is lit. Both are whole numbers, i below taps * taps.
+float2 bumpshadow_pixel_place(float i, float taps) {
+    float row = floor((i + 0.5) / taps);
+    return float2((i - row * taps + 0.5) / taps - 0.5, (row + 0.5) / taps - 0.5);
+}
+
 // ---- sine_layers ----
 //
 // The horizon towards a light, from a texel of each of two layers: 0, 45, 90, 135 and 180, 225, 270, 315 degrees. In

@@ -26,3 +26,10 @@ BUMPSHADOW_FUNCTION float bumpshadow_shadow_soft(float light, float horizon, flo
 BUMPSHADOW_FUNCTION float bumpshadow_shadow_fade(float factor, float distance, float start, float end) {
     return mix(factor, 1.0f, min(max(0.0f, (distance - start) / max(end - start, 1e-30f)), 1.0f));
 }
+
+// Place i of taps x taps of a pixel that covers many texels, row by row: from its middle, in sides of the pixel. The mean
+// of their factors is the share of the pixel that is lit. Both are whole numbers, i below taps * taps.
+BUMPSHADOW_FUNCTION vec2 bumpshadow_pixel_place(float i, float taps) {
+    float row = floor((i + 0.5f) / taps);
+    return vec2((i - row * taps + 0.5f) / taps - 0.5f, (row + 0.5f) / taps - 0.5f);
+}

@@ -60,6 +60,7 @@ struct choice {
     edge shadow = edge::soft;                            // of the shadow
     bool square_root = false;                            // Fourier: signed square roots are stored
     bool vertex = false;  // decoders of slices: bearing and level a vertex at a time, too
+    bool places = false;  // of a pixel that covers many texels: bumpshadow_pixel_place, too
 };
 
 namespace snippets_detail {
@@ -171,6 +172,7 @@ void compose(const choice& chosen, dialect language, const Write& write) {
     if (has_shadow(chosen.decode)) {
         join(all, snippets[index_of(level)].needs);
         join(all, snippets[index_of(shadow)].needs);
+        if (chosen.places) join(all, snippets[index_of("bumpshadow_pixel_place")].needs);
     }
     const bool vertex = chosen.vertex && has_bearing(chosen.decode);
     if (vertex)

@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <string_view>
 
-#include <bumpshadow/config.hpp>
-
 namespace bumpshadow::shader_text {
 
 // A function or structure; `needs` has a bit for each snippet that it uses, through others too, and its own.
@@ -561,6 +559,21 @@ R"~(float bumpshadow_shadow_fade(float factor, float distance, float start, floa
 }
 )~",
      {0x4000000000u, 0x0u, 0x0u, 0x0u}},
+    {"bumpshadow_pixel_place",
+R"~(// Place i of taps x taps of a pixel that covers many texels, row by row: from its middle, in sides of the pixel. The mean
+// of their factors is the share of the pixel that is lit. Both are whole numbers, i below taps * taps.
+)~",
+R"~(vec2 bumpshadow_pixel_place(float i, float taps) {
+    float row = floor((i + 0.5) / taps);
+    return vec2((i - row * taps + 0.5) / taps - 0.5, (row + 0.5) / taps - 0.5);
+}
+)~",
+R"~(float2 bumpshadow_pixel_place(float i, float taps) {
+    float row = floor((i + 0.5) / taps);
+    return float2((i - row * taps + 0.5) / taps - 0.5, (row + 0.5) / taps - 0.5);
+}
+)~",
+     {0x8000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_sine_layers_factors",
 R"~(// Equation 5.3. One set of factors serves every texture that is lit from the same direction.
 )~",
@@ -572,7 +585,7 @@ R"~(float bumpshadow_sine_layers_factors(float4 layer0, float4 layer1, bumpshado
     return dot(layer0, factors.layer0) + dot(layer1, factors.layer1);
 }
 )~",
-     {0x8000002000u, 0x0u, 0x0u, 0x0u}},
+     {0x10000002000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_sine_layers_biased_cube",
 R"~(// The same straight from a texel of a biased cube, without the structure.
 )~",
@@ -584,7 +597,7 @@ R"~(float bumpshadow_sine_layers_biased_cube(float4 layer0, float4 layer1, float
     return dot(layer0, bumpshadow_layer0_biased_cube(texel)) + dot(layer1, bumpshadow_layer1_biased_cube(texel));
 }
 )~",
-     {0x10000018000u, 0x0u, 0x0u, 0x0u}},
+     {0x20000018000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_sine_layers",
 R"~(// The same as with bumpshadow_factors(light), by picking the two horizons that have a part: fewer instructions.
 )~",
@@ -614,7 +627,7 @@ R"~(float bumpshadow_sine_layers(float4 layer0, float4 layer1, float2 light) {
     return axis + part * (diagonal - axis);
 }
 )~",
-     {0x20000040001u, 0x0u, 0x0u, 0x0u}},
+     {0x40000040001u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_sine_first_layer",
 R"~(// An array of both layers: the one to sample whole, and of the other one, 1 - this, only the first channel.
 )~",
@@ -622,7 +635,7 @@ R"~(float bumpshadow_sine_first_layer(vec2 light) { return light.y >= 0.0 ? 0.0 
 )~",
 R"~(float bumpshadow_sine_first_layer(float2 light) { return light.y >= 0.0 ? 0.0 : 1.0; }
 )~",
-     {0x40000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x80000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_sine_half",
 R"~(// What bumpshadow_sine_layers gives, from these two; fewer instructions still.
 )~",
@@ -648,7 +661,7 @@ R"~(float bumpshadow_sine_half(float4 first, float other, float2 light) {
     return axis + part * (diagonal - axis);
 }
 )~",
-     {0x80000040001u, 0x0u, 0x0u, 0x0u}},
+     {0x100000040001u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_slice_position",
 R"~(// Position of a bearing among the slices, in [0, N], N by rounding alone. phase and bearing may have any sign.
 )~",
@@ -660,7 +673,7 @@ R"~(float bumpshadow_slice_position(float bearing, float phase, float slices) {
     return frac(bearing - phase) * slices;
 }
 )~",
-     {0x100000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x200000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_grouped_layers",
 R"~(// Four slices a layer, two fetches; layers = N / 4. x, y: layers; z: position from the first channel of layer x on, in
 // [0, 4].
@@ -679,7 +692,7 @@ R"~(float3 bumpshadow_grouped_layers(float position, float layers) {
     return float3(layer, next < layers ? next : 0.0, position - 4.0 * layer);
 }
 )~",
-     {0x200000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x400000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_grouped_horizon",
 R"~(// Horizon from layer x, and the first channel of layer y.
 )~",
@@ -699,7 +712,7 @@ R"~(float bumpshadow_grouped_horizon(float4 values, float next_value, float plac
     return odd + abs(abs(past) - 1.0) * (even - odd);
 }
 )~",
-     {0x400000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x800000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_overlapping_layer",
 R"~(// Layers that overlap by one slice, one fetch. x: layer; y: position from its first channel on, in [0, 3].
 )~",
@@ -715,7 +728,7 @@ R"~(float2 bumpshadow_overlapping_layer(float position) {
     return float2(layer, position - 3.0 * layer);
 }
 )~",
-     {0x800000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x1000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_overlapping_horizon",
 R"~(// Horizon from the layer.
 )~",
@@ -733,7 +746,7 @@ R"~(float bumpshadow_overlapping_horizon(float4 values, float place) {
     return odd + abs(abs(past) - 1.0) * (even - odd);
 }
 )~",
-     {0x1000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x2000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_other_hand",
 R"~(// Left-handed (y-down) masks to right-handed (y-up) ones and back: green and blue swapped, which is the same as
 // swapping the last two vectors of the basis. Doing both undoes it.
@@ -742,7 +755,7 @@ R"~(vec3 bumpshadow_ssbump_other_hand(vec3 masks) { return vec3(masks.x, masks.z
 )~",
 R"~(float3 bumpshadow_ssbump_other_hand(float3 masks) { return float3(masks.x, masks.z, masks.y); }
 )~",
-     {0x2000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x4000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_sum",
 R"~(// Sum of the basis vectors, each times its mask; not unit length.
 )~",
@@ -756,7 +769,7 @@ R"~(float3 bumpshadow_ssbump_sum(float3 masks) {
                 0.57735027 * (masks.x + masks.y + masks.z));
 }
 )~",
-     {0x4000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x8000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_project",
 R"~(// Three dots with the basis, the inverse of the sum: the masks of a unit normal as long as none is negative, which they
 // are not up to a tilt of 35.26 degrees, asin(1/sqrt(3)); beyond, some bearings make one negative.
@@ -775,7 +788,7 @@ R"~(float3 bumpshadow_ssbump_project(float3 v) {
     return float3(0.81649658 * v.x + up, back + side, back - side);
 }
 )~",
-     {0x8000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x10000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_normal",
 R"~(// Unit normal: of the surface for masks without occlusion, else bent towards where it is open. Black gives straight up.
 )~",
@@ -791,7 +804,7 @@ R"~(float3 bumpshadow_ssbump_normal(float3 masks) {
     return square > 1e-8 ? sum * rsqrt(square) : float3(0.0, 0.0, 1.0);
 }
 )~",
-     {0x14000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x28000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_world_red",
 R"~(// The basis concatenated with the way from tangent space to the world, whose axes are unit vectors in the world: once a
 // vertex or a pixel. Any of the sums above then lands in the world. This is the vector of the red mask.
@@ -804,7 +817,7 @@ R"~(float3 bumpshadow_ssbump_world_red(float3 tangent, float3 normal) {
     return 0.81649658 * tangent + 0.57735027 * normal;
 }
 )~",
-     {0x20000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x40000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_world_green",
 R"~(// The vector of the green mask in the world.
 )~",
@@ -816,7 +829,7 @@ R"~(float3 bumpshadow_ssbump_world_green(float3 tangent, float3 bitangent, float
     return 0.70710678 * bitangent - 0.40824829 * tangent + 0.57735027 * normal;
 }
 )~",
-     {0x40000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x80000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_world_blue",
 R"~(// The vector of the blue mask in the world.
 )~",
@@ -828,7 +841,7 @@ R"~(float3 bumpshadow_ssbump_world_blue(float3 tangent, float3 bitangent, float3
     return 0.57735027 * normal - 0.40824829 * tangent - 0.70710678 * bitangent;
 }
 )~",
-     {0x80000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x100000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_world_normal",
 R"~(// Straight to a unit normal in the world; red, green, blue: from the three functions above. Black gives the zero
 // vector.
@@ -843,7 +856,7 @@ R"~(float3 bumpshadow_ssbump_world_normal(float3 masks, float3 red, float3 green
     return sum * rsqrt(max(dot(sum, sum), 1e-20));
 }
 )~",
-     {0x100000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x200000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_reflection",
 R"~(// Where a ray from the eye goes on to: `eye` points to the eye, `normal` is unit length, both in the same space.
 )~",
@@ -851,7 +864,7 @@ R"~(vec3 bumpshadow_reflection(vec3 eye, vec3 normal) { return 2.0 * dot(normal,
 )~",
 R"~(float3 bumpshadow_reflection(float3 eye, float3 normal) { return 2.0 * dot(normal, eye) * normal - eye; }
 )~",
-     {0x200000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x400000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_detail",
 R"~(// A gray detail map multiplied in: the recovered normal stays. detail: 1 changes nothing.
 )~",
@@ -859,7 +872,7 @@ R"~(vec3 bumpshadow_ssbump_detail(vec3 masks, float detail) { return masks * det
 )~",
 R"~(float3 bumpshadow_ssbump_detail(float3 masks, float detail) { return masks * detail; }
 )~",
-     {0x400000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x800000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_detail_masks",
 R"~(// A second SSBump map as detail, packed so that flat is 0.5. The product may exceed 1: a target of 8 bits clamps it.
 )~",
@@ -867,7 +880,7 @@ R"~(vec3 bumpshadow_ssbump_detail_masks(vec3 masks, vec3 detail) { return 2.0 * 
 )~",
 R"~(float3 bumpshadow_ssbump_detail_masks(float3 masks, float3 detail) { return 2.0 * masks * detail; }
 )~",
-     {0x800000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x1000000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_lightmaps",
 R"~(// Diffuse light from three lightmaps, one for each basis vector b, each simply multiplied by its mask. Exact for a
 // light from anywhere that all three face, since the basis is orthonormal. Lightmaps that hold the irradiance on planes
@@ -884,7 +897,7 @@ R"~(float3 bumpshadow_ssbump_lightmaps(float3 masks, float3 red, float3 green, f
     return masks.x * red + masks.y * green + masks.z * blue;
 }
 )~",
-     {0x1000000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x2000000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_normal_lightmaps",
 R"~(// The same lightmaps with an ordinary normal map (McTaggart 2004, Half-Life 2 / Valve Source Shading): weights are the
 // squares of the clamped dots, over their sum.
@@ -903,7 +916,7 @@ R"~(float3 bumpshadow_normal_lightmaps(float3 normal, float3 red, float3 green, 
     return (squares.x * red + squares.y * green + squares.z * blue) * (1.0 / sum);
 }
 )~",
-     {0x2008000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x4010000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_weights",
 R"~(// A dynamic light projected on the basis: three dots, clamped. light: towards the light in tangent space, as long as it
 // is strong. Once an object or vertex for lights that are far. As with a normal map, a light below the surface still
@@ -913,7 +926,7 @@ R"~(vec3 bumpshadow_ssbump_weights(vec3 light) { return max(bumpshadow_ssbump_pr
 )~",
 R"~(float3 bumpshadow_ssbump_weights(float3 light) { return max(bumpshadow_ssbump_project(light), 0.0); }
 )~",
-     {0x4008000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x8010000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_light",
 R"~(// Diffuse light of a dynamic light; weights: from the function above. In place of the clamped dot of normal and light,
 // and of a shadow factor. At most the length of the masks times that of the light, not 1: with a unit light 1.003 for
@@ -923,7 +936,7 @@ R"~(float bumpshadow_ssbump_light(vec3 masks, vec3 weights) { return dot(masks, 
 )~",
 R"~(float bumpshadow_ssbump_light(float3 masks, float3 weights) { return dot(masks, weights); }
 )~",
-     {0x8000000000000000u, 0x0u, 0x0u, 0x0u}},
+     {0x0u, 0x1u, 0x0u, 0x0u}},
     {"bumpshadow_volume_coordinate",
 R"~(// Third coordinate of a volume texture that repeats, for one fetch, at level 0: where bearings wrap the coordinate
 // jumps, and implicit derivatives would ask for a coarse level there. offset: 0.5 / N - phase
@@ -932,7 +945,7 @@ R"~(float bumpshadow_volume_coordinate(float bearing, float offset) { return bea
 )~",
 R"~(float bumpshadow_volume_coordinate(float bearing, float offset) { return bearing + offset; }
 )~",
-     {0x0u, 0x1u, 0x0u, 0x0u}},
+     {0x0u, 0x2u, 0x0u, 0x0u}},
     {"bumpshadow_tangent_layers",
 R"~(// An array of layers, for two fetches: x, y: the two layers, z: part of the second one. phase and bearing may have any
 // sign.
@@ -951,7 +964,7 @@ R"~(float3 bumpshadow_tangent_layers(float bearing, float phase, float slices) {
     return float3(layer, next < slices ? next : 0.0, position - layer);
 }
 )~",
-     {0x0u, 0x2u, 0x0u, 0x0u}},
+     {0x0u, 0x4u, 0x0u, 0x0u}},
     {"bumpshadow_arc_coordinate",
 R"~(// Third coordinate of a volume texture that is clamped along it, for one fetch. Bearings beyond the arc get the nearer
 // end.
@@ -964,7 +977,7 @@ R"~(float bumpshadow_arc_coordinate(float bearing, float start, float scale, flo
     return scale * frac(bearing - start) + offset;
 }
 )~",
-     {0x0u, 0x4u, 0x0u, 0x0u}},
+     {0x0u, 0x8u, 0x0u, 0x0u}},
     {"bumpshadow_arc_layers",
 R"~(// The two layers of an array (x, y), and the part of the second one (z). Layer y may be one too many where its part is
 // 0: hardware clamps it.
@@ -981,7 +994,7 @@ R"~(float3 bumpshadow_arc_layers(float bearing, float start, float scale, float 
     return float3(layer, layer + 1.0, position - layer);
 }
 )~",
-     {0x0u, 0x8u, 0x0u, 0x0u}},
+     {0x0u, 0x10u, 0x0u, 0x0u}},
     {"bumpshadow_tangent_horizon",
 R"~(// Horizon from the values of the two layers.
 )~",
@@ -993,7 +1006,7 @@ R"~(float bumpshadow_tangent_horizon(float value, float next_value, float part) 
     return lerp(value, next_value, part);
 }
 )~",
-     {0x0u, 0x10u, 0x0u, 0x0u}},
+     {0x0u, 0x20u, 0x0u, 0x0u}},
     {"bumpshadow_to_tangent_space",
 R"~(// Into tangent space: the axes are unit vectors, at right angles to each other.
 )~",
@@ -1005,7 +1018,7 @@ R"~(float3 bumpshadow_to_tangent_space(float3 v, float3 tangent, float3 bitangen
     return float3(dot(v, tangent), dot(v, bitangent), dot(v, normal));
 }
 )~",
-     {0x0u, 0x20u, 0x0u, 0x0u}},
+     {0x0u, 0x40u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_slope",
 R"~(// Slope of a light, cut at `most`: a vertex that the light stands above would outweigh all others. max_slope serves for
 // c = 1, and max_slope (1 + 0.5 / k) for c = 0.5.
@@ -1018,7 +1031,7 @@ R"~(float bumpshadow_vertex_slope(float3 light, float most) {
     return clamp(bumpshadow_slope(light), -most, most);
 }
 )~",
-     {0x40000001u, 0x40u, 0x0u, 0x0u}},
+     {0x40000001u, 0x80u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_bearing_exact",
 R"~(// Bearing (x, turns) and slope (y, cut at `most`) of a light; the bearing by bumpshadow_bearing_exact.
 )~",
@@ -1030,7 +1043,7 @@ R"~(float2 bumpshadow_vertex_bearing_exact(float3 light, float most) {
     return float2(bumpshadow_bearing_exact(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 )~",
-     {0x4000001fu, 0xc0u, 0x0u, 0x0u}},
+     {0x4000001fu, 0x180u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_bearing_quintic",
 R"~(// The same by bumpshadow_bearing_quintic.
 )~",
@@ -1042,7 +1055,7 @@ R"~(float2 bumpshadow_vertex_bearing_quintic(float3 light, float most) {
     return float2(bumpshadow_bearing_quintic(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 )~",
-     {0x4000002fu, 0x140u, 0x0u, 0x0u}},
+     {0x4000002fu, 0x280u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_bearing_cubic",
 R"~(// The same by bumpshadow_bearing_cubic.
 )~",
@@ -1054,7 +1067,7 @@ R"~(float2 bumpshadow_vertex_bearing_cubic(float3 light, float most) {
     return float2(bumpshadow_bearing_cubic(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 )~",
-     {0x4000004fu, 0x240u, 0x0u, 0x0u}},
+     {0x4000004fu, 0x480u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_bearing_octant",
 R"~(// The same by bumpshadow_bearing_octant.
 )~",
@@ -1066,7 +1079,7 @@ R"~(float2 bumpshadow_vertex_bearing_octant(float3 light, float most) {
     return float2(bumpshadow_bearing_octant(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 )~",
-     {0x4000008fu, 0x440u, 0x0u, 0x0u}},
+     {0x4000008fu, 0x880u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_bearing_diamond",
 R"~(// The same by bumpshadow_bearing_diamond.
 )~",
@@ -1078,7 +1091,7 @@ R"~(float2 bumpshadow_vertex_bearing_diamond(float3 light, float most) {
     return float2(bumpshadow_bearing_diamond(float2(light.x, light.y)), bumpshadow_vertex_slope(light, most));
 }
 )~",
-     {0x4000010fu, 0x840u, 0x0u, 0x0u}},
+     {0x4000010fu, 0x1080u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_direction",
 R"~(// Direction (xy, of length 1; 0 straight up, so that such a vertex leaves the direction to the others) and slope (z).
 )~",
@@ -1092,7 +1105,7 @@ R"~(float3 bumpshadow_vertex_direction(float3 light, float most) {
     return float3(light.x * inverse, light.y * inverse, bumpshadow_vertex_slope(light, most));
 }
 )~",
-     {0x40000001u, 0x1040u, 0x0u, 0x0u}},
+     {0x40000001u, 0x2080u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_direction_sine",
 R"~(// The same with the sine (z), which needs no cut.
 )~",
@@ -1106,7 +1119,7 @@ R"~(float3 bumpshadow_vertex_direction_sine(float3 light) {
     return float3(light.x * inverse, light.y * inverse, bumpshadow_sine(light));
 }
 )~",
-     {0x80000001u, 0x2000u, 0x0u, 0x0u}},
+     {0x80000001u, 0x4000u, 0x0u, 0x0u}},
     {"bumpshadow_unwrap_bearings",
 R"~(// Bearings of a triangle's vertices moved by whole turns to within half a turn of the first, as Direct3D's wrap mode
 // did: 0.1, 0.2, 0.9 becomes 0.1, 0.2, -0.1. For geometry and mesh shaders, and for lights that are fixed in a mesh.
@@ -1121,7 +1134,7 @@ R"~(float3 bumpshadow_unwrap_bearings(float3 bearings) {
                 bearings.z - floor(bearings.z - bearings.x + 0.5));
 }
 )~",
-     {0x0u, 0x4000u, 0x0u, 0x0u}},
+     {0x0u, 0x8000u, 0x0u, 0x0u}},
     {"bumpshadow_bearings_go_round",
 R"~(// True where the light stands above the triangle: its unwrapped bearings go round, and no bearings that are
 // interpolated linearly can be right.
@@ -1130,7 +1143,7 @@ R"~(bool bumpshadow_bearings_go_round(vec3 unwrapped) { return abs(unwrapped.y -
 )~",
 R"~(bool bumpshadow_bearings_go_round(float3 unwrapped) { return abs(unwrapped.y - unwrapped.z) > 0.5; }
 )~",
-     {0x0u, 0x8000u, 0x0u, 0x0u}},
+     {0x0u, 0x10000u, 0x0u, 0x0u}},
     {"bumpshadow_bearing_pair",
 R"~(// Without neighbors: interpolate a bearing twice, once with its seam at 0 and once at half a turn. A triangle that
 // spans less than half a turn crosses one of the two at most; there that one changes faster. Source: Tarini,
@@ -1144,7 +1157,7 @@ R"~(float2 bumpshadow_bearing_pair(float bearing) {
     return float2(frac(bearing), frac(bearing + 0.5) - 0.5);
 }
 )~",
-     {0x0u, 0x10000u, 0x0u, 0x0u}},
+     {0x0u, 0x20000u, 0x0u, 0x0u}},
     {"bumpshadow_pick_bearing",
 R"~(// change: fwidth of the pair.
 )~",
@@ -1156,7 +1169,7 @@ R"~(float bumpshadow_pick_bearing(float2 pair, float2 change) {
     return change.y < change.x ? pair.y : pair.x;
 }
 )~",
-     {0x0u, 0x20000u, 0x0u, 0x0u}},
+     {0x0u, 0x40000u, 0x0u, 0x0u}},
 };
 
 }  // namespace bumpshadow::shader_text

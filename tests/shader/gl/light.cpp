@@ -42,6 +42,7 @@ constexpr expression shadow_factors[] = {
     EXPRESSION(1e-6f, bumpshadow_shadow_soft_above(a.x, a.y, a.z, a.w)),
     EXPRESSION(1e-6f, bumpshadow_shadow_soft(a.x, a.y, a.z, a.w)),
     EXPRESSION(1e-6f, bumpshadow_shadow_fade(b.x, b.y, b.z, b.w)),
+    EXPRESSION(1e-6f, bumpshadow_pixel_place(floor(b.w * 0.65f), 5.0f)),
 };
 
 std::vector<inputs> all_shadows() {

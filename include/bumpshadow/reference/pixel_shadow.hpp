@@ -1,0 +1,36 @@
+#pragma once
+
+#include <glm/ext/vector_float2.hpp>
+#include <glm/ext/vector_float3.hpp>
+
+#include <bumpshadow/reference/sampler.hpp>
+#include <bumpshadow/reference/shadow.hpp>
+#include <bumpshadow/reference/shadow_edge.hpp>
+#include <bumpshadow/shader/shader.hpp>
+
+// Shadow factors of pixels that cover many texels, from several places of each.
+
+namespace bumpshadow {
+
+// Where place i of taps x taps of a pixel is, row by row: from its middle, in sides of the pixel.
+[[nodiscard]] inline glm::vec2 tap_offset(int i, int taps) {
+    return shader::bumpshadow_pixel_place(static_cast<float>(i), static_cast<float>(taps));
+}
+
+// The mean of shadow_factor() over taps x taps places of a pixel: the share of it that is lit, where one place tells
+// no more than light or shadow. With taps = 1 that is shadow_factor() at uv.
+//   uv: of the pixel's middle; side: of the pixel, in texture coordinates; taps: at least 1
+// Error of the mean over 6 maps, 8 texels a pixel, lights from 5 to 90 degrees all around, 16 slices: of texels
+// averaged over 2 x 2 and 4 x 4 places 2.1 percentage points, over 2 x 2 places 2.9; of texels averaged over 8 x 8 and
+// one place 7.6.
+template <class Encoding, class Textures>
+[[nodiscard]] float pixel_factor(const Encoding& encoding, const Textures& textures, const sampler& how, glm::vec2 uv,
+                                 glm::vec2 side, int taps, glm::vec3 light, const shadow_edge& edge = {},
+                                 float level = 0.0f) {
+    float sum = 0.0f;
+    for (int i = 0; i < taps * taps; ++i)
+        sum += shadow_factor(encoding, textures, how, uv + side * tap_offset(i, taps), light, edge, level);
+    return sum / static_cast<float>(taps * taps);
+}
+
+}  // namespace bumpshadow
