@@ -92,7 +92,7 @@ recipe_horizons bake_for(const height_samples& samples, const height_source& sou
         if (r.reduced_heights == 1) return bs::bake_cascade(map, h.directions, h.map, options, execute);
         if (bs::status s = check(map); !s) return s;
         std::vector<float> averaged(bs::required_size(extent, 1));
-        bs::plan_detail::average_heights(map, r.reduced_heights, extent, averaged.data());
+        bs::average_heights(map, r.reduced_heights, extent, averaged.data());
         bs::height_map<float> small = bs::tight_height_map<float>(averaged.data(), extent);
         small.texel_size = map.texel_size * double(r.reduced_heights);
         small.edge = map.edge;

@@ -17,7 +17,7 @@
 #include <bumpshadow/horizon/exact.hpp>
 #include <bumpshadow/measure/figures.hpp>
 #include <bumpshadow/measure/sample.hpp>
-#include <bumpshadow/reference/shadow.hpp>
+#include <bumpshadow/reference/pixel_shadow.hpp>
 
 #include "common/file.hpp"
 #include "common/shading.hpp"
@@ -144,10 +144,12 @@ measured_error lit_pixels::judge(const Factor& factor) const {
     return {sum / n, bs::standard_errors_95(n - 1.0) * std::sqrt(variance / n)};
 }
 
-measured_error lit_pixels::of(const encoded& map, const bs::shadow_edge& edge) const {
+measured_error lit_pixels::of(const encoded& map, const bs::shadow_edge& edge, int taps) const {
     const auto& e = std::get<bs::tangent_volume>(map.how);
     const bs::const_texture from = map.textures[0].view();
-    return judge([&](glm::vec2 uv, glm::vec3 light) { return shadow_factor(e, from, how_, uv, light, edge); });
+    const glm::vec2 pixel = glm::vec2(float(side_)) / glm::vec2(map.extent);
+    return judge(
+        [&](glm::vec2 uv, glm::vec3 light) { return pixel_factor(e, from, how_, uv, pixel, taps, light, edge); });
 }
 
 measured_error lit_pixels::without_shadows() const {

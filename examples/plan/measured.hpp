@@ -30,8 +30,8 @@ public:
     lit_pixels(const height_samples& samples, const height_source& source, const bumpshadow::scene& scene,
                std::uint32_t seed);
 
-    // Of a texture, as a GPU shows it, without mips.
-    [[nodiscard]] measured_error of(const encoded& map, const bumpshadow::shadow_edge& edge) const;
+    // Of a texture, as a GPU shows it, without mips, from taps x taps places of a pixel.
+    [[nodiscard]] measured_error of(const encoded& map, const bumpshadow::shadow_edge& edge, int taps = 1) const;
     // Of a surface without shadows.
     [[nodiscard]] measured_error without_shadows() const;
     [[nodiscard]] std::size_t pixels() const { return places_.size(); }

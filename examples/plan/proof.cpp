@@ -11,7 +11,6 @@
 #include <utility>
 
 #include <bumpshadow/horizon_map.hpp>
-#include <bumpshadow/plan/workshop.hpp>
 
 #include "common/file.hpp"
 #include "common/manifest.hpp"
@@ -61,8 +60,8 @@ std::vector<proof_scene> scenes_for(glm::ivec2 extent, glm::dvec2 texel_size) {
 set_up_figures figures_of(const encoded& map, const bs::recipe& r) {
     set_up_figures f;
     f.bytes = double(map.textures[0].bytes.size()) / (double(map.extent.x) * map.extent.y);
-    f.gpu_cost = bs::plan_detail::cost_of(r.encoding.kind, r.encoding.slices);
-    f.fetches = fetches(r.encoding);
+    f.gpu_cost = bs::gpu_cost_of(r.encoding, r.taps);
+    f.fetches = fetches(r.encoding) * r.taps * r.taps;
     return f;
 }
 
@@ -161,7 +160,7 @@ planned_map plan_map(const height_samples& samples, const height_source& source,
     one.figures = figures_of(map, one.how);
     one.figures.bake_seconds = bake;
     one.figures.pack_seconds = pack;
-    one.figures.error = measure->of(map, one.how.edge);
+    one.figures.error = measure->of(map, one.how.edge, one.how.taps);
     return one;
 }
 

@@ -225,13 +225,16 @@ TEST_CASE("the edge is the light's") {
     CHECK(r.edge.c == 0.5f);
 }
 
-TEST_CASE("a distant view: no more texels than pixels") {
+TEST_CASE("a distant view: no more texels than its places tell apart") {
     const auto map = heap();
     scene s = with_arc({0.0, 1.0, 5.0, 90.0}, 0.05);
     for (const double pixel : {2.0, 4.0, 8.0, 100.0}) {
         s.texels_per_pixel = pixel;
         const recipe r = planned(map.view(), s);
-        CHECK(r.reduced_heights * r.reduction >= int(std::min(pixel, 8.0)));
+        const int covered = int(std::min(pixel, 8.0));
+        CHECK(4 * r.reduced_heights * r.reduction >= covered);
+        CHECK(r.taps <= covered);
+        CHECK(r.edge.c == 0.5f);
         CHECK(!std::isinf(r.edge.k));
     }
 }

@@ -115,7 +115,7 @@ bool is_same(const recipe& a, const recipe& b) {
            s.count == t.count && s.phase == t.phase && s.function == t.function && s.arc == t.arc &&
            a.encoding.format == b.encoding.format && a.encoding.kind == b.encoding.kind &&
            a.encoding.scale.max_slope == b.encoding.scale.max_slope && a.fit == b.fit && a.edge.k == b.edge.k &&
-           a.edge.c == b.edge.c && a.free_tiles == b.free_tiles && p.mismatch == q.mismatch &&
+           a.edge.c == b.edge.c && a.taps == b.taps && a.free_tiles == b.free_tiles && p.mismatch == q.mismatch &&
            p.interval == q.interval && p.degrees == q.degrees && p.bytes == q.bytes && p.gpu_cost == q.gpu_cost &&
            p.fetches == q.fetches && a.lines == b.lines &&
            std::equal(a.why.begin(), a.why.begin() + a.lines, b.why.begin(),

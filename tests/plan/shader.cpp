@@ -106,6 +106,10 @@ TEST_CASE("what is composed for a recipe is what it needs and nothing else") {
                                  "bumpshadow_sine", "bumpshadow_angle", "bumpshadow_vertex_bearing"})
             CHECK_MESSAGE(!has(all, name), name);
     }
+    CHECK(!has(composed(r), "bumpshadow_pixel_place"));
+    r.taps = 4;
+    CHECK(has(composed(r), "bumpshadow_pixel_place"));
+    CHECK(shader_choice(r).places);
     // Whatever the recipe, nothing is there that the caller's functions do not reach.
     struct road {
         texture_kind kind;

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <span>
 
 #include <glm/common.hpp>
+#include <glm/ext/vector_bool2.hpp>
 #include <glm/ext/vector_double2.hpp>
 #include <glm/ext/vector_double3.hpp>
 #include <glm/ext/vector_float2.hpp>
@@ -25,56 +27,64 @@
 // Part of plan.hpp.
 namespace bumpshadow::plan_detail {
 
-inline constexpr int patch_side = 32;  // texels; a multiple of every reduction
-inline constexpr int most_patches = 128;
+inline constexpr int patch_side = 32;                                 // texels; a multiple of every reduction
+inline constexpr int most_patches = 512, most_patches_of_one = 2048;  // the latter where one direction is baked
 inline constexpr int most_reduction = 8;
-// The texels that are looked at: the middle of a patch, so that reduced texels on all sides of them are there.
+// Where the middles of pixels are: in the middle of a patch, so that reduced texels on all sides of them are there.
 inline constexpr int core_first = 12, core_side = 8;
 inline constexpr int elevations = 4;  // of an arc, in each bearing
-inline constexpr int bearings = 16;   // of an arc, in each patch
+inline constexpr int bearings = 16;   // of an arc
 // Rays of exact: each takes a microsecond or two.
 inline constexpr int most_rays = 16384;
 
-// Squares of a map, stacked on top of each other.
+// Squares of a map, which stand side by side where they are packed. Any number of them from the first on is spread over
+// the map, too. Of maps with borders that do not repeat the outer 12 texels are in no pixel: the sample speaks for the
+// rest.
 struct patches {
-    glm::ivec2 extent{0};  // of one
+    glm::ivec2 extent{0};       // of one
+    glm::bvec2 repeats{false};  // a patch as wide as a map that repeats
     int count = 0;
-    std::array<glm::ivec2, most_patches> origins;
+    int pixel = 1;  // texels along the side of a pixel
+    std::array<glm::ivec2, most_patches_of_one> origins;
 
-    [[nodiscard]] glm::ivec2 stack() const { return {extent.x, extent.y * count}; }
+    [[nodiscard]] glm::ivec2 row() const { return {extent.x * count, extent.y}; }
     // Whether patches can be reduced by it.
     [[nodiscard]] bool divides(int by) const {
         return by <= most_reduction && extent.x % by == 0 && extent.y % by == 0;
     }
     [[nodiscard]] bool whole() const { return extent == glm::ivec2(patch_side); }
 
-    // What of a patch is packed, in texels reduced by `by`: all that the core is filtered from, whole blocks of 4 x 4.
+    // What of a patch is packed, in texels reduced by `by`: all that pixels are filtered from, whole blocks of 4 x 4.
     // Of maps smaller than a patch all.
     [[nodiscard]] rectangle part(int by) const {
         if (!whole()) return {glm::ivec2(0), extent / by};
-        const int side = by == 8 ? 4 : 8;
+        const int side = by == 8 ? 4 : by == 1 && pixel > 1 ? 16 : 8;
         return {glm::ivec2((patch_side / by - side) / 2), glm::ivec2(side)};
     }
-    [[nodiscard]] glm::ivec2 packed(int by) const {
+    // Of the first `of` patches.
+    [[nodiscard]] glm::ivec2 packed(int by, int of) const {
         const glm::ivec2 side = part(by).extent;
-        return {side.x, side.y * count};
+        return {side.x * of, side.y};
     }
 };
 
 // Spread over the map, on multiples of the largest reduction where there is room for it.
-[[nodiscard]] inline patches choose_patches(glm::ivec2 map, std::uint32_t seed) {
+[[nodiscard]] inline patches choose_patches(glm::ivec2 map, edge_mode edge, int most, std::uint32_t seed) {
     patches all;
     all.extent = (glm::min)(map, glm::ivec2(patch_side));
+    all.repeats = glm::bvec2(edge == edge_mode::repeat && map.x == all.extent.x,
+                             edge == edge_mode::repeat && map.y == all.extent.y);
     const glm::ivec2 places = (map - all.extent) / most_reduction + 1;
-    all.count = int((std::min)(std::int64_t(most_patches), std::int64_t(places.x) * places.y));
-    std::array<glm::ivec2, most_patches> drawn;
+    all.count = int((std::min)(std::int64_t(most), std::int64_t(places.x) * places.y));
+    std::array<glm::ivec2, most_patches_of_one> drawn;
     const status s = sample_texels(places, seed, std::span(drawn).first(std::size_t(all.count)));
     BUMPSHADOW_ASSERT(bool(s));
     static_cast<void>(s);
-    // Drawn row by row; in this order the first half of them is spread over the map, too.
-    const int step = all.count % 37 == 0 ? 1 : 37;
+    // Drawn row by row; steps of the golden section spread the first of them.
+    int step = int(0.618 * all.count) + 1;
+    while (std::gcd(step, all.count) != 1) ++step;
     for (int i = 0; i < all.count; ++i)
-        all.origins[std::size_t(i)] = drawn[std::size_t(i * step % all.count)] * most_reduction;
+        all.origins[std::size_t(i)] = drawn[std::size_t(std::int64_t(i) * step % all.count)] * most_reduction;
     return all;
 }
 
@@ -83,34 +93,35 @@ struct look {
     glm::vec2 place;  // of the pixel's middle in its patch, in texels
     int patch;
     glm::vec2 direction;  // of unit length
-    float horizon;        // the exact one, a slope; of the pixel's texels the mean
-    float reach;          // how far occluders of these lights are, at the most; in the unit of texel_size
+    float horizon;        // a slope, not below 0; of the pixel's texels the mean
+    float reach;          // how far occluders of these lights are, at the most, in the unit of texel_size; 0: unknown
     float light[elevations];
     float lit[elevations];  // share of the pixel that is lit
 };
 
 struct view {
     int lights = elevations;  // that a look has
-    int pixel = 1;            // texels along the side of a pixel
     int pixels = 0;           // of a patch
     int rays = 1;             // bearings of a pixel
-    int samples = 1;          // texels of a pixel that exact is asked about
 
     [[nodiscard]] std::size_t looks(int patch_count) const {
         return std::size_t(patch_count) * std::size_t(pixels) * std::size_t(rays);
     }
 };
 
-[[nodiscard]] inline view shape_view(const scene& s, const patches& all) {
+// Pixels of many texels under far lights are all looked at in the same bearings, whose horizons are baked.
+[[nodiscard]] inline bool is_baked(const scene& s, const patches& all) { return all.pixel > 1 && s.positions.empty(); }
+
+[[nodiscard]] inline view shape_view(const scene& s, patches& all) {
+    while (2 * all.pixel <= s.texels_per_pixel && all.divides(2 * all.pixel)) all.pixel *= 2;
     view v;
-    v.pixel = 1;
-    while (2 * v.pixel <= s.texels_per_pixel && all.divides(2 * v.pixel)) v.pixel *= 2;
-    v.samples = v.pixel * v.pixel;
     const std::size_t fixed = !s.lights.empty() ? s.lights.size() : s.positions.size();
-    const int most = v.pixel > 1 ? bearings / 4 : bearings;
+    const bool baked = is_baked(s, all);
+    const int most = all.pixel == 1 ? bearings / 2 : baked ? bearings : 1;
     v.rays = fixed == 0 ? most : int((std::min)(fixed, std::size_t(most)));
     v.lights = fixed == 0 ? elevations : 1;
-    v.pixels = std::clamp(most_rays / (all.count * v.rays * v.samples), 1, core_side * core_side);
+    const int each = baked ? 1 : all.pixel * all.pixel;
+    v.pixels = (std::clamp)(most_rays / (all.count * v.rays * each), 1, core_side * core_side / 2);
     return v;
 }
 
@@ -124,21 +135,28 @@ struct lamp {
     return (double(i) + double(random.below(1 << 20)) / double(1 << 20)) / double(of);
 }
 
+// where: draws a bearing of an arc; random: elevations
 [[nodiscard]] inline lamp choose_lamp(const scene& s, const view& v, int ray, glm::dvec2 place,
-                                      measure_detail::generator& random) {
+                                      measure_detail::generator& where, measure_detail::generator& random) {
     lamp l;
     const auto from = [&](glm::dvec3 towards) {
         const double flat = std::hypot(towards.x, towards.y);
         if (flat > 0.0) l.direction = glm::dvec2(towards) / flat;
         l.slopes[0] = flat > 0.0 ? towards.z / flat : 1e9;
     };
+    // Of more lights than rays, others in each pixel.
+    const auto one_of = [&](const auto& all) {
+        const std::size_t first = std::size_t(ray) * all.size() / std::size_t(v.rays),
+                          last = std::size_t(ray + 1) * all.size() / std::size_t(v.rays);
+        return all[first + std::size_t(where.below(int(last - first)))];
+    };
     if (!s.lights.empty()) {
-        from(s.lights[std::size_t(ray) * s.lights.size() / std::size_t(v.rays)]);
+        from(one_of(s.lights));
     } else if (!s.positions.empty()) {
-        from(s.positions[std::size_t(ray) * s.positions.size() / std::size_t(v.rays)] - glm::dvec3(place, 0.0));
+        from(one_of(s.positions) - glm::dvec3(place, 0.0));
     } else {
         const light_arc& a = s.arc;
-        const double bearing = a.first_bearing + (a.last_bearing - a.first_bearing) * part(ray, v.rays, random);
+        const double bearing = a.first_bearing + (a.last_bearing - a.first_bearing) * part(ray, v.rays, where);
         l.direction = exact_direction(bearing - std::floor(bearing));
         for (int e = 0; e < elevations; ++e) {
             const double degrees = a.lowest + (a.highest - a.lowest) * part(e, elevations, random);
@@ -148,42 +166,68 @@ struct lamp {
     return l;
 }
 
-// Asks exact about the looks of one patch. out: v.pixels * v.rays of them, pixel by pixel.
-template <height_sample Sample>
-void look_at_patch(const height_map<Sample>& heights, const height_bounds<Sample>& bounds, const scene& s,
-                   const patches& all, const view& v, int patch, std::uint32_t seed, look* out) {
-    measure_detail::generator random((std::uint64_t(seed) << 32) + std::uint64_t(patch) + 1);
-    const glm::ivec2 origin = all.origins[std::size_t(patch)];
-    // Pixels stand where reduced texels do, their middles in the core.
-    const glm::ivec2 cells = all.extent / v.pixel;
-    const int first = all.whole() ? (2 * core_first + v.pixel - 1) / (2 * v.pixel) : 0;
-    const glm::ivec2 room =
-        all.whole() ? glm::ivec2((std::max)(core_side / v.pixel, 2)) : (glm::max)(cells, glm::ivec2(1));
+// What horizons of a pixel's texels say of a look.
+struct exposure {
+    double sum = 0.0;
+    int texels = 0;
+    int blocked[elevations] = {};
+
+    void add(const view& v, const look& l, double slope) {
+        sum += (std::max)(slope, 0.0);
+        ++texels;
+        for (int e = 0; e < v.lights; ++e) blocked[e] += double(l.light[e]) < slope ? 1 : 0;
+    }
+    void write(const view& v, look& l) const {
+        l.horizon = float(sum / texels);
+        for (int e = 0; e < v.lights; ++e) l.lit[e] = float(texels - blocked[e]) / float(texels);
+    }
+};
+
+[[nodiscard]] inline measure_detail::generator generator_of(std::uint32_t seed, int i) {
+    return measure_detail::generator((std::uint64_t(seed) << 32) + std::uint64_t(i) + 1);
+}
+
+// The looks of one patch, not yet at anything. out: v.pixels * v.rays of them, pixel by pixel.
+inline void choose_looks(const scene& s, const patches& all, const view& v, glm::dvec2 texel_size, int patch,
+                         std::uint32_t seed, look* out) {
+    measure_detail::generator random = generator_of(seed, patch);
+    const bool baked = is_baked(s, all);
+    const glm::ivec2 first = all.whole() ? glm::ivec2(core_first - all.pixel / 2) : glm::ivec2(0);
+    const glm::ivec2 room = all.whole() ? glm::ivec2(core_side) : all.extent - all.pixel + 1;
     for (int i = 0; i < v.pixels; ++i) {
-        const glm::ivec2 cell(first + random.below(room.x), first + random.below(room.y));
-        const glm::ivec2 corner = cell * v.pixel;
-        const glm::vec2 middle = glm::vec2(corner) + 0.5f * float(v.pixel);
+        const glm::ivec2 corner(first.x + random.below(room.x), first.y + random.below(room.y));
+        const glm::vec2 middle = glm::vec2(corner) + 0.5f * float(all.pixel);
+        const glm::dvec2 place = (glm::dvec2(all.origins[std::size_t(patch)]) + glm::dvec2(middle) - 0.5) * texel_size;
         for (int ray = 0; ray < v.rays; ++ray) {
+            measure_detail::generator shared = generator_of(seed, -2 - ray);
+            const lamp light = choose_lamp(s, v, ray, place, baked ? shared : random, random);
             look& l = out[i * v.rays + ray];
-            const glm::dvec2 place = (glm::dvec2(origin) + glm::dvec2(middle) - 0.5) * heights.texel_size;
-            const lamp light = choose_lamp(s, v, ray, place, random);
             l = {middle, patch, glm::vec2(light.direction), 0.0f, 0.0f, {}, {}};
             for (int e = 0; e < v.lights; ++e) l.light[e] = float(light.slopes[e]);
-            const exact_detail::rays<Sample> rays(heights, bounds, light.direction, bake_options{}.radius, {});
-            double sum = 0.0;
-            for (int k = 0; k < v.samples; ++k) {
-                const glm::ivec2 inside(k % v.pixel, k / v.pixel);
-                const auto [slope, distance] = rays((glm::min)(origin + corner + inside, heights.extent - 1));
-                sum += (std::max)(slope, 0.0);
-                for (int e = 0; e < v.lights; ++e) {
-                    const bool blocked = light.slopes[e] < slope;
-                    l.lit[e] += blocked ? 0.0f : 1.0f / float(v.samples);
-                    if (blocked) l.reach = (std::max)(l.reach, float(distance));
-                }
-            }
-            l.horizon = float(sum / v.samples);
         }
     }
+}
+
+// First texel of a look's pixel, in the map.
+[[nodiscard]] inline glm::ivec2 corner_of(const look& l, const patches& all) {
+    return all.origins[std::size_t(l.patch)] + glm::ivec2(l.place - 0.5f * float(all.pixel) + 0.25f);
+}
+
+// Asks exact about a look.
+template <height_sample Sample>
+void ask_exact(const height_map<Sample>& heights, const height_bounds<Sample>& bounds, const patches& all,
+               const view& v, look& l) {
+    const exact_detail::rays<Sample> rays(heights, bounds, glm::dvec2(l.direction), bake_options{}.radius, {});
+    const glm::ivec2 corner = corner_of(l, all);
+    exposure e;
+    for (int y = 0; y < all.pixel; ++y)
+        for (int x = 0; x < all.pixel; ++x) {
+            const auto [slope, distance] = rays(corner + glm::ivec2(x, y));
+            e.add(v, l, slope);
+            for (int i = 0; i < v.lights; ++i)
+                if (double(l.light[i]) < slope) l.reach = (std::max)(l.reach, float(distance));
+        }
+    e.write(v, l);
 }
 
 }  // namespace bumpshadow::plan_detail

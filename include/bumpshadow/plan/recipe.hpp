@@ -13,6 +13,7 @@
 #include <bumpshadow/encode/reduce.hpp>
 #include <bumpshadow/encode/slices.hpp>
 #include <bumpshadow/encode/tangent_volume.hpp>
+#include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>
 #include <bumpshadow/status.hpp>
@@ -28,7 +29,8 @@ struct plan_figures {
     double interval = 0.0;  // half width of the 95 % confidence interval of mismatch
     double degrees = 0.0;   // mean error of the horizon's elevation in the lights' bearings
     double bytes = 0.0;     // a texel of the height map
-    double bake_seconds = 0.0;  // of the whole map on one thread
+    double bake_seconds = 0.0;  // of the whole map, on one thread
+    double pack_seconds = 0.0;  // likewise: from horizons to the texture
     double gpu_cost = 0.0;      // cycles a wave, as shader_cost prints them for RDNA2
     // Texture fetches of a pixel.
     int fetches = 0;
@@ -75,6 +77,8 @@ struct recipe {
 
     // The shader: shape of the shadow's edge.
     shadow_edge edge = {};
+    // Of pixels that cover many texels, the factors of taps x taps places are averaged (bumpshadow_pixel_place).
+    int taps = 1;
     bool above = true;  // lights never shine from below the surface
 
     bool wants_normals = false;  // a normal map is missing
@@ -101,6 +105,44 @@ struct recipe {
             std::snprintf(text, sizeof plan_line::text, format, values...);
     }
 };
+
+// Cycles a wave on RDNA2, net of the empty shader, as shader_cost prints them with a hard edge. A soft one for lights
+// above the surface takes 4 less.
+[[nodiscard]] constexpr double gpu_cost_of(const tangent_volume& encoding, int taps = 1) {
+    const bool arc = is_arc(encoding.slices), array = encoding.kind == texture_kind::array;
+    // Each further place of a pixel: what it fetches, and its edge.
+    const double places = taps == 1 ? 0.0 : 6.0 + double(taps * taps - 1) * (array ? 11.0 : 6.67);
+    if (encoding.kind == texture_kind::flat) return 20.0 + places;
+    const double around = (array ? (arc ? 16.0 : 18.0) : (arc ? 4.0 : 0.0)) + places;
+    switch (encoding.slices.function) {
+        case bearing_function::exact: return 38.0 + around;
+        case bearing_function::octant: return 26.0 + around;
+        case bearing_function::cubic: return 30.0 + around;
+        default: return 32.0 + around;
+    }
+}
+
+// Heights averaged over squares, as reduced_heights says; holes count for nothing, and squares of holes alone are NaN.
+//   extent: of the result, reduced_extent(): where it is no multiple, the last rows and columns of `from` are in none
+//   out: [y][x], tight, in the unit of texel_size, above the map's reference
+template <height_sample Sample>
+void average_heights(const height_map<Sample>& from, int side, glm::ivec2 extent, float* out) {
+    const double unit = unit_height(from), reference = reference_sample(from);
+    for (int y = 0; y < extent.y; ++y)
+        for (int x = 0; x < extent.x; ++x) {
+            double sum = 0.0;
+            int count = 0;
+            for (int j = 0; j < side; ++j)
+                for (int i = 0; i < side; ++i) {
+                    const Sample sample = sample_at(from, x * side + i, y * side + j);
+                    if (is_no_data(from, sample)) continue;
+                    sum += double(sample) - reference;
+                    ++count;
+                }
+            out[std::size_t(y) * std::size_t(extent.x) + std::size_t(x)] =
+                count > 0 ? float(unit * sum / count) : std::numeric_limits<float>::quiet_NaN();
+        }
+}
 
 // Extent that horizons are baked at, of a height map of this extent; texels.
 [[nodiscard]] inline GLM_CONSTEXPR glm::ivec2 baked_extent(const recipe& r, glm::ivec2 extent) {

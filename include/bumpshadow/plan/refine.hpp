@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -10,7 +9,6 @@
 #include <glm/ext/vector_double2.hpp>
 
 #include <bumpshadow/bearing.hpp>
-#include <bumpshadow/encode/reduce.hpp>
 #include <bumpshadow/encode/slices.hpp>
 #include <bumpshadow/finite.hpp>
 #include <bumpshadow/height_map.hpp>
@@ -36,28 +34,17 @@ namespace bumpshadow::plan_detail {
     return s;
 }
 
-// Bakes what a recipe says for real; overwrites what the variants were made of.
+// Bakes what a recipe says for real.
 template <height_sample Sample>
 [[nodiscard]] status bake_and_judge(workshop<Sample>& w, const candidate& c, recipe& r) {
     std::array<glm::dvec2, most_directions> storage;
     const std::span<glm::dvec2> directions = std::span(storage).first(std::size_t(r.directions));
     fill_directions(r, directions);
-    const auto sized = [&](const horizon_map& room, glm::ivec2 extent) {
-        return horizon_map{.values = room.values, .extent = extent, .bearings = r.directions};
-    };
-    const horizon_map slopes = sized(w.full, w.sample.stack() / c.reduced_heights);
-    const auto start = std::chrono::steady_clock::now();
-    if (status s = w.bake(c.reduced_heights, directions, {.radius = r.radius, .memory = w.memory}, slopes); !s)
-        return s;
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-
-    const horizon_map smaller = sized(w.work, slopes.extent / c.reduction);
-    if (c.reduction > 1)
-        if (status s = reduce(slopes, r.encoding.scale, smaller, serial{}, w.memory); !s) return s;
-    const horizon_map packed = sized(c.reduction > 1 ? w.full : w.work, w.sample.packed(c.shrunk()));
-    crop_patches(c.reduction > 1 ? smaller : slopes, w.sample, c.shrunk(), packed);
-    if (status s = judge_with(w, c, w.sample, packed, directions, r); !s) return s;
-    r.predicted.bake_seconds = time.count();
+    variant baked = w.other(variant_of(w, c), r.directions);
+    double seconds = 0.0;
+    if (status s = w.bake({&baked, 1}, directions, {.radius = r.radius}, seconds); !s) return s;
+    if (status s = judge_with(w, c, baked.slopes, directions, r); !s) return s;
+    r.predicted.bake_seconds = seconds;
     return {};
 }
 
@@ -66,8 +53,8 @@ template <height_sample Sample>
 void explain(const workshop<Sample>& w, recipe& r) {
     const plan_figures& p = r.predicted;
     const slice_set& slices = r.encoding.slices;
-    r.say(w.view.pixel == 1 ? "error: %.2f +- %.2f %% of all answers are wrong, %.2f %% are allowed"
-                            : "error: %.2f +- %.2f %% on average of what a pixel gets of light, %.2f %% are allowed",
+    r.say(w.sample.pixel == 1 ? "error: %.2f +- %.2f %% of all answers are wrong, %.2f %% are allowed"
+                              : "error: %.2f +- %.2f %% on average of what a pixel gets of light, %.2f %% are allowed",
           100.0 * p.mismatch, 100.0 * p.interval, 100.0 * w.wanted.mismatch);
     if (r.obstacle != plan_obstacle::none) r.say("not met: %s stands in the way", name_of(r.obstacle));
     if (slices.arc == 0.0)
@@ -88,20 +75,22 @@ void explain(const workshop<Sample>& w, recipe& r) {
     if (r.encoding.format == texel_format::bc4) r.say("BC4, %.4g bytes a texel: 8 bits take twice that", p.bytes);
     r.say("%.3g stands for 1: the steepest horizon is %.3g%s", double(r.encoding.scale.max_slope), double(w.steepest),
           w.range.highest_slope < 4.0 ? ", and light comes from no higher" : "");
-    if (is_infinite(r.radius))
+    if (r.taps > 1)
+        r.say("%d x %d places of each pixel, their factors averaged: fewer tell too little of its texels", r.taps,
+              r.taps);
+    if (w.reach > 0.0 && is_infinite(r.radius))
         r.say("no radius: what shadows is up to %.4g away", w.reach);
-    else
+    else if (w.reach > 0.0)
         r.say("radius %.4g: what shadows is up to %.4g away", r.radius, w.reach);
     if (r.encoding.kind != texture_kind::flat)
         r.say(slices.function == bearing_function::octant ? "octant bearing, %.0f cycles: no better one is needed"
                                                           : "cubic bearing, %.0f cycles",
               p.gpu_cost);
-    if (!is_infinite(r.edge.k) && w.view.pixel == 1)
+    if (!is_infinite(r.edge.k) && w.sample.pixel == 1)
         r.say("edge of k = %.3g for a light of radius %.3g degrees, which is on average %.0f degrees high",
               double(r.edge.k), w.wanted.light_radius, middle_elevation(w.range));
     else if (!is_infinite(r.edge.k))
-        r.say("edge of k = %.3g, c = %.3g: as wide as horizons differ within a pixel", double(r.edge.k),
-              double(r.edge.c));
+        r.say("edge of k = %.3g, centered: as wide as horizons differ within a pixel", double(r.edge.k));
     else
         r.say("hard edge: the light is a point");
     r.free_tiles = w.free_tiles;
@@ -115,7 +104,7 @@ template <height_sample Sample>
 [[nodiscard]] status settle(const workshop<Sample>& w, recipe& r) {
     candidate c = candidate_of(r);
     const variant& v = variant_of(w, c);
-    if (status s = judge_with(w, c, w.sample, v.slopes, w.directions, r); !s) return s;
+    if (status s = judge_with(w, c, v.slopes, w.directions, r); !s) return s;
     if (is_good(w.wanted, r) && over_budget(w.wanted, r) == plan_obstacle::none) r.obstacle = plan_obstacle::none;
     if (r.obstacle != plan_obstacle::none) return {};
     recipe finer = r;
@@ -124,7 +113,7 @@ template <height_sample Sample>
         if (more <= c.intervals) continue;
         c.intervals = more;
         shape(w, c, finer);
-        if (status s = judge_with(w, c, w.sample, v.slopes, w.directions, finer); !s) return s;
+        if (status s = judge_with(w, c, v.slopes, w.directions, finer); !s) return s;
         if (over_budget(w.wanted, finer) == plan_obstacle::none) r = finer;
         if (!is_good(w.wanted, finer)) continue;
         r.obstacle = over_budget(w.wanted, finer);
@@ -148,20 +137,18 @@ template <height_sample Sample>
     r.predicted.bake_seconds = seconds_of(w, c, r.directions);
     const int intervals = (std::max)(c.intervals, 1);
     finding affordable;
-    for (int each = 1; each * intervals < w.divisions; ++each) {
-        if (w.divisions % (each * intervals) != 0) continue;
-        const int step = w.divisions / (each * intervals);
+    for (int step = w.divisions; step > 1; --step) {
+        if (w.divisions % step != 0 || w.divisions / step < intervals) continue;
         horizon_map some = v.slopes;
         some.slice_stride = v.slopes.slice_step() * std::size_t(step);
         some.bearings = (int(w.directions.size()) - 1) / step + 1;
         std::array<glm::dvec2, most_directions> own;
         for (int i = 0; i < some.bearings; ++i) own[std::size_t(i)] = w.directions[std::size_t(i * step)];
         recipe fewer = r;
-        fewer.fit = each == 1 && c.intervals > 0 ? slice_fit::point : slice_fit::least_squares;
+        fewer.fit = w.divisions / step == intervals && c.intervals > 0 ? slice_fit::point : slice_fit::least_squares;
         fewer.directions = some.bearings;
         fewer.predicted.bake_seconds = seconds_of(w, c, some.bearings);
-        if (status s = judge_with(w, c, w.sample, some, std::span(own).first(std::size_t(some.bearings)), fewer); !s)
-            return s;
+        if (status s = judge_with(w, c, some, std::span(own).first(std::size_t(some.bearings)), fewer); !s) return s;
         if (over_budget(w.wanted, fewer) == plan_obstacle::none)
             affordable.add(fewer, fewer.predicted.mismatch < affordable.best.predicted.mismatch);
         if (!as_good(fewer)) continue;
@@ -179,9 +166,9 @@ template <height_sample Sample>
     // What takes a bake of its own to know: a radius, and the cheapest bearing.
     const double side =
         (std::min)(w.heights.extent.x * w.heights.texel_size.x, w.heights.extent.y * w.heights.texel_size.y);
-    if (r.directions <= 16 && w.reach > 0.0) {
+    if (r.directions <= 8 * r.reduced_heights * r.reduced_heights) {
         recipe lean = r;
-        if (w.reach < 0.25 * side) lean.radius = 1.25 * w.reach;
+        if (w.reach > 0.0 && w.reach < 0.25 * side) lean.radius = 1.25 * w.reach;
         if (lean.encoding.kind != texture_kind::flat)
             lean.encoding.slices = slices_by(bearing_function::octant, w.range, r.encoding.slices);
         if (status s = bake_and_judge(w, c, lean); !s) return s;
@@ -191,7 +178,7 @@ template <height_sample Sample>
         }
         if (as_good(lean)) r = lean;
     }
-    if (w.view.pixel == 1) r.edge = edge_for(w.wanted.light_radius, r.encoding.scale, middle_elevation(w.range));
+    if (w.sample.pixel == 1) r.edge = edge_for(w.wanted.light_radius, r.encoding.scale, middle_elevation(w.range));
     explain(w, r);
     return {};
 }

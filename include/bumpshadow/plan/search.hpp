@@ -20,23 +20,24 @@
 // The search for the cheapest recipe. Part of plan.hpp.
 namespace bumpshadow::plan_detail {
 
-// A candidate: how much smaller, in what way, and in how many intervals between slices. No interval: a single slice for
-// all bearings alike, a flat texture.
+// A candidate: how much smaller, in what way, at how many places of a pixel, and in how many intervals between slices.
+// No interval: a single slice for all bearings alike, a flat texture.
 struct candidate {
     int reduced_heights = 1, reduction = 1;
     texel_format format = texel_format::r8;
+    int taps = 1;
     int intervals = 8;
 
     [[nodiscard]] int shrunk() const { return reduced_heights * reduction; }
 };
 
-// Intervals between slices, which divide the directions baked.
+// Intervals between slices.
 template <height_sample Sample>
 [[nodiscard]] std::span<const int> ladder_of(const workshop<Sample>& w) {
-    static constexpr int of_48[] = {0, 4, 6, 8, 12, 16, 24, 48}, of_24[] = {0, 1, 2, 3, 4, 6, 8, 12, 24},
+    static constexpr int of_32[] = {0, 4, 6, 8, 12, 16, 24, 32}, of_24[] = {0, 1, 2, 3, 4, 6, 8, 12, 24},
                          of_12[] = {0, 1, 2, 3, 4, 6, 12}, none[] = {0};
     if (w.divisions == 1 || !(w.wanted.volumes || w.wanted.arrays)) return none;
-    if (w.divisions == 48) return of_48;
+    if (w.divisions == 32) return of_32;
     return w.divisions == 24 ? std::span<const int>(of_24) : std::span<const int>(of_12);
 }
 
@@ -44,7 +45,7 @@ template <height_sample Sample>
 [[nodiscard]] inline int slices_of(int intervals, bool arc) { return intervals == 0 ? 1 : intervals + (arc ? 1 : 0); }
 [[nodiscard]] inline candidate candidate_of(const recipe& r) {
     const int count = r.encoding.slices.count;
-    return {r.reduced_heights, r.reduction, r.encoding.format,
+    return {r.reduced_heights, r.reduction, r.encoding.format, r.taps,
             count == 1 ? 0 : count - (is_arc(r.encoding.slices) ? 1 : 0)};
 }
 
@@ -62,11 +63,12 @@ template <height_sample Sample>
     return variant_of(w, c).seconds_per_sample * double(baked.x) * baked.y * directions;
 }
 
-// Fills in what a candidate is and what it costs.
+// Fills in what a candidate is and what it costs, but for the time to pack it.
 template <height_sample Sample>
 void shape(const workshop<Sample>& w, const candidate& c, recipe& r) {
     r.reduced_heights = c.reduced_heights;
     r.reduction = c.reduction;
+    r.taps = c.taps;
     r.encoding.format = c.format;
     r.encoding.slices = w.slices;
     const int count = slices_of(c.intervals, is_arc(w.slices));
@@ -79,36 +81,48 @@ void shape(const workshop<Sample>& w, const candidate& c, recipe& r) {
     p.bytes = double(count) * (c.format == texel_format::bc4 ? 0.5 : 1.0) / (double(c.shrunk()) * c.shrunk());
     // At the least: what is baked beyond the slices' own directions is known later.
     p.bake_seconds = seconds_of(w, c, count);
-    p.gpu_cost = cost_of(r.encoding.kind, r.encoding.slices);
-    p.fetches = fetches(r.encoding);
+    p.gpu_cost = gpu_cost_of(r.encoding, r.taps);
+    p.fetches = fetches(r.encoding) * r.taps * r.taps;
 }
 
-// Looks at a packed sample of a shaped recipe, and fills in what it gets wrong.
+// Looks at a packed part of the sample, `count` patches, by a shaped recipe, and fills in what it gets wrong.
 template <height_sample Sample>
-[[nodiscard]] status judge_with(const workshop<Sample>& w, const candidate& c, const patches& sample,
-                                const horizon_map& slopes, std::span<const glm::dvec2> directions, recipe& r) {
+[[nodiscard]] status judge_with(const workshop<Sample>& w, const candidate& c, int count, horizon_map slopes,
+                                std::span<const glm::dvec2> directions, recipe& r) {
+    slopes.row_stride = slopes.row_step();
+    slopes.slice_stride = slopes.slice_step();
+    slopes.extent = w.sample.packed(c.shrunk(), count);
     verdict v;
-    if (status s = try_recipe(slopes, directions, r, c.shrunk(), w.view, sample,
-                              w.looks.first(w.view.looks(sample.count)), w.texels, w.horizons, w.memory, v);
+    if (status s = try_recipe(slopes, directions, r, c.shrunk(), w.view, w.sample, w.looks.first(w.view.looks(count)),
+                              w.texels, w.values, w.horizons, w.memory, v);
         !s)
         return s;
+    const glm::ivec2 stored = reduced_extent(baked_extent(r, w.heights.extent), r.reduction);
     r.edge = v.edge;
     r.predicted.mismatch = v.mismatch;
     r.predicted.interval = v.interval;
     r.predicted.degrees = v.degrees;
+    r.predicted.pack_seconds =
+        v.pack_seconds * double(stored.x) * stored.y / (double(slopes.extent.x) * slopes.extent.y);
     return {};
 }
+template <height_sample Sample>
+[[nodiscard]] status judge_with(const workshop<Sample>& w, const candidate& c, const horizon_map& slopes,
+                                std::span<const glm::dvec2> directions, recipe& r) {
+    return judge_with(w, c, w.sample.count, slopes, directions, r);
+}
 
+// A part of the sample is enough to choose by, and a small one where it is far from what is bearable.
 template <height_sample Sample>
 [[nodiscard]] status attempt(const workshop<Sample>& w, const candidate& c, recipe& r) {
     shape(w, c, r);
-    // Half of the sample is enough to choose by.
-    patches half = w.sample;
-    half.count = (w.sample.count + 1) / 2;
-    horizon_map slopes = variant_of(w, c).slopes;
-    slopes.slice_stride = slopes.slice_step();
-    slopes.extent.y = half.packed(c.shrunk()).y;
-    return judge_with(w, c, half, slopes, w.directions, r);
+    for (const int share : {16, 4}) {
+        const int count = (std::max)(w.sample.count / share, (std::min)(w.sample.count, 1024 / (share * share)));
+        if (status s = judge_with(w, c, count, variant_of(w, c).slopes, w.directions, r); !s) return s;
+        if (r.predicted.mismatch - 1.5 * r.predicted.interval > w.wanted.mismatch) break;
+        if (r.predicted.mismatch + 1.5 * r.predicted.interval < 0.9 * w.wanted.mismatch) break;
+    }
+    return {};
 }
 
 // A little less than is bearable, since it is a sample.
@@ -123,7 +137,7 @@ template <height_sample Sample>
 }
 [[nodiscard]] inline plan_obstacle over_budget(const scene& wanted, const recipe& r) {
     if (r.predicted.bytes > wanted.bytes) return plan_obstacle::bytes;
-    if (r.predicted.bake_seconds > wanted.bake_seconds) return plan_obstacle::bake_seconds;
+    if (r.predicted.bake_seconds + r.predicted.pack_seconds > wanted.bake_seconds) return plan_obstacle::bake_seconds;
     return r.predicted.gpu_cost > wanted.gpu_cost ? plan_obstacle::gpu_cost : plan_obstacle::none;
 }
 // What else stands in the way of a recipe that is not good.
@@ -134,13 +148,21 @@ template <height_sample Sample>
     exact.predicted.degrees = 0.0;
     return excess(w.wanted, exact) == excess(w.wanted, r) ? plan_obstacle::mismatch : plan_obstacle::degrees;
 }
-// By what is counted and not by time, which is another every time.
+// Bytes first, then the work: by what is counted and not by time, which is another every time.
+struct price {
+    double bytes, work, gpu_cost;
+};
+[[nodiscard]] inline price price_of(const recipe& r) {
+    // Of the map's texels in one direction: packing a slice takes about a third of baking it, in BC4 as much.
+    const double slices = double(r.encoding.slices.count), baked = double(r.reduced_heights) * r.reduced_heights;
+    const double packing = r.encoding.format == texel_format::bc4 ? 1.0 : 0.3;
+    return {r.predicted.bytes, slices / baked * (1.0 + packing / (double(r.reduction) * r.reduction)),
+            r.predicted.gpu_cost};
+}
 [[nodiscard]] inline bool is_cheaper(const recipe& a, const recipe& b) {
-    const auto baked = [](const recipe& r) {
-        return double(r.encoding.slices.count) / (double(r.reduced_heights) * r.reduced_heights);
-    };
-    if (a.predicted.bytes != b.predicted.bytes) return a.predicted.bytes < b.predicted.bytes;
-    return baked(a) < baked(b);
+    const price p = price_of(a), q = price_of(b);
+    if (p.bytes != q.bytes) return p.bytes < q.bytes;
+    return p.work != q.work ? p.work < q.work : p.gpu_cost < q.gpu_cost;
 }
 
 // The best of its kind so far.
@@ -153,15 +175,13 @@ struct finding {
     }
 };
 
-// Tries every size and format with as few slices as do.
+// Tries every size, format and number of places with as few slices as do.
 //   reserve: share of the bearable error that may be used up
 template <height_sample Sample>
 [[nodiscard]] status search(const workshop<Sample>& w, double reserve, recipe& best) {
     const scene& wanted = w.wanted;
     best.encoding.slices = w.slices;
-    // Light above it is never shadowed, and what is steeper than any light need not be told apart.
-    const double limit = (std::min)({double(w.steepest), 1.05 * w.range.highest_slope, 4.0});
-    best.encoding.scale.max_slope = float((std::max)(limit, 1e-3));
+    best.encoding.scale = w.scale;
 
     const recipe start = best;
     finding good[2], nearest[2];  // beyond the budgets, within them
@@ -177,22 +197,38 @@ template <height_sample Sample>
     const auto for_each_size = [&](const auto& look) {
         for (const int factor : {8, 4, 2, 1})
             for (const variant& v : std::span(w.variants).first(std::size_t(w.variant_count)))
-                for (const texel_format format : {texel_format::bc4, texel_format::r8}) {
-                    const candidate c{v.reduced_heights, v.reduction, format, 0};
-                    if (c.shrunk() != factor || factor < w.view.pixel) continue;
-                    if (format == texel_format::bc4 && !wanted.bc4) continue;
-                    if (status s = look(c); !s) return s;
-                }
+                for (const int taps : {1, 2, 4})
+                    for (const texel_format format : {texel_format::r8, texel_format::bc4}) {
+                        const candidate c{v.reduced_heights, v.reduction, format, taps, 0};
+                        if (c.shrunk() != factor || taps > w.sample.pixel || taps * factor > 2 * w.sample.pixel)
+                            continue;
+                        if (format == texel_format::bc4 && !wanted.bc4) continue;
+                        bool fails = false;
+                        if (status s = look(c, fails); !s) return s;
+                        // BC4 gets more wrong.
+                        if (fails) break;
+                    }
         return status{};
     };
-    // More slices are never worse but by noise. Most of these end with the first look, at the most slices.
-    const auto find_fewest = [&](candidate c) {
+    // More slices are never worse but by noise. Most of these end with the first look, at the most slices that would be
+    // cheaper than what is known.
+    const auto find_fewest = [&](candidate c, bool& fails) {
+        const auto would_be_cheaper = [&](int intervals) {
+            recipe r = start;
+            c.intervals = intervals;
+            shape(w, c, r);
+            return !good[1].known || is_cheaper(r, good[1].best);
+        };
         std::size_t low = 0, high = ladder.size();
+        while (high > 0 && !would_be_cheaper(ladder[high - 1])) --high;
+        const bool all = high == ladder.size();
         for (std::size_t next = high - 1; low < high; next = (low + high) / 2) {
             c.intervals = ladder[next];
             recipe r;
             if (status s = look_at(c, r); !s) return s;
-            (is_good(wanted, r, reserve) ? high : low) = is_good(wanted, r, reserve) ? next : next + 1;
+            const bool is_enough = is_good(wanted, r, reserve);
+            fails = fails || (all && next + 1 == ladder.size() && !is_enough);
+            (is_enough ? high : low) = is_enough ? next : next + 1;
         }
         return status{};
     };
@@ -202,7 +238,7 @@ template <height_sample Sample>
         return {};
     }
     // The most slices that the budgets allow.
-    const auto find_most = [&](candidate c) {
+    const auto find_most = [&](candidate c, bool&) {
         for (std::size_t i = ladder.size(); i-- > 0;) {
             c.intervals = ladder[i];
             recipe r = start;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -8,96 +9,89 @@
 #include <memory_resource>
 #include <numbers>
 #include <span>
-#include <utility>
 
+#include <glm/ext/vector_bool2.hpp>
 #include <glm/ext/vector_double2.hpp>
 #include <glm/ext/vector_float2.hpp>
 #include <glm/ext/vector_float3.hpp>
 #include <glm/ext/vector_int2.hpp>
 
-#include <bumpshadow/encode/reduce.hpp>
 #include <bumpshadow/encode/tangent_volume.hpp>
-#include <bumpshadow/height_map.hpp>
-#include <bumpshadow/horizon/cascade.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/measure/figures.hpp>
 #include <bumpshadow/plan/looks.hpp>
 #include <bumpshadow/plan/recipe.hpp>
-#include <bumpshadow/reference/shadow.hpp>
+#include <bumpshadow/reference/pixel_shadow.hpp>
+#include <bumpshadow/reference/tangent_shadow.hpp>
 #include <bumpshadow/status.hpp>
 
 // What a recipe does, tried on the patches of a map. Part of plan.hpp.
 namespace bumpshadow::plan_detail {
 
-// Directions whose horizons of the whole map are held at a time.
-inline constexpr int directions_at_once = 8;
-inline constexpr int most_directions = 97;
+// A packed texture as numbers, [slice][y][x], and where the looks' patches are in it. It reads what horizon() of
+// reference/tangent_shadow.hpp reads from the texture itself, many times as fast.
+struct unpacked {
+    const tangent_volume& encoding;
+    const_texture packed;
+    const float* values;
+    rectangle part;  // of a patch
+    glm::bvec2 repeats;
+    int reduction, pixel;  // in texels
 
-// Heights averaged over squares.
-template <height_sample Sample>
-void average_heights(const height_map<Sample>& from, int side, glm::ivec2 extent, float* out) {
-    const double unit = unit_height(from), reference = reference_sample(from);
-    for (int y = 0; y < extent.y; ++y)
-        for (int x = 0; x < extent.x; ++x) {
-            double sum = 0.0;
-            int count = 0;
-            for (int j = 0; j < side; ++j)
-                for (int i = 0; i < side; ++i) {
-                    const Sample sample = sample_at(from, x * side + i, y * side + j);
-                    if (is_no_data(from, sample)) continue;
-                    sum += double(sample) - reference;
-                    ++count;
-                }
-            out[std::size_t(y) * std::size_t(extent.x) + std::size_t(x)] =
-                count > 0 ? float(unit * sum / count) : std::numeric_limits<float>::quiet_NaN();
-        }
-}
-
-// Bakes a map in some directions and keeps the patches.
-//   reduced: the side of the squares that its heights were averaged over, and that the patches shrink by
-//   slices: of the whole map, directions_at_once of them; out: the stack, one slice a direction
-//   steepest: raised to the steepest horizon of the whole map
-template <height_sample Sample>
-[[nodiscard]] status bake_patches(const height_map<Sample>& heights, const patches& all, int reduced,
-                                  std::span<const glm::dvec2> directions, const bake_options& options,
-                                  std::span<float> slices, const horizon_map& out, float& steepest) {
-    const glm::ivec2 side = all.extent / reduced;
-    for (std::size_t first = 0; first < directions.size(); first += directions_at_once) {
-        const std::size_t count = (std::min)(directions.size() - first, std::size_t(directions_at_once));
-        const horizon_map whole{.values = slices, .extent = heights.extent, .bearings = int(count)};
-        if (status s = bake_cascade(heights, directions.subspan(first, count), whole, options); !s) return s;
-        steepest = (std::max)(steepest, steepest_slope(whole));
-        for (std::size_t i = 0; i < count; ++i)
-            for (int p = 0; p < all.count; ++p) {
-                const glm::ivec2 origin = all.origins[std::size_t(p)] / reduced;
-                for (int y = 0; y < side.y; ++y)
-                    std::copy_n(whole.row(int(i), origin.y + y) + origin.x, side.x,
-                                out.row(int(first + i), p * side.y + y));
-            }
+    // What a look sees of the slices around its bearing.
+    [[nodiscard]] sampler_detail::tap slices_at(glm::vec2 direction) const {
+        if (encoding.kind == texture_kind::flat) return {};
+        const float bearing = shadow_detail::bearing_of(encoding.slices.function, direction);
+        if (encoding.kind == texture_kind::array) return shadow_detail::layers_at(encoding, packed, bearing);
+        return sampler_detail::linear_tap(shadow_detail::coordinate_at(encoding, bearing), encoding.slices.count,
+                                          shadow_detail::address_of(encoding), filter_weights::exact);
     }
-    return {};
-}
 
-// Copies what of the patches is packed.
-inline void crop_patches(const horizon_map& from, const patches& all, int reduced, const horizon_map& out) {
-    const rectangle part = all.part(reduced);
-    const int side = all.extent.y / reduced;
-    for (int b = 0; b < from.bearings; ++b)
-        for (int p = 0; p < all.count; ++p)
-            for (int y = 0; y < part.extent.y; ++y)
-                std::copy_n(from.row(b, p * side + part.origin.y + y) + part.origin.x, part.extent.x,
-                            out.row(b, p * part.extent.y + y));
-}
+    // Horizons at taps x taps places of the look's pixel, as they are stored.
+    void read(const look& l, int taps, float* horizons) const {
+        const sampler_detail::tap slices = slices_at(l.direction);
+        const glm::ivec2 extent = packed.layout.extent;
+        const std::size_t of_slice = std::size_t(extent.x) * std::size_t(extent.y);
+        const float* const patch = values + std::size_t(l.patch * part.extent.x);
+        const float *const a = patch + std::size_t(slices.first) * of_slice, *const b =
+                                                                                 patch +
+                                                                                 std::size_t(slices.second) * of_slice;
+        const auto along = [](float at, int size, bool repeat) {
+            const float floor = std::floor(at);
+            const int i = int(floor);
+            const auto inside = [&](int n) { return repeat ? (n + size) % size : std::clamp(n, 0, size - 1); };
+            return sampler_detail::tap{inside(i), inside(i + 1), at - floor};
+        };
+        const glm::vec2 middle = l.place / float(reduction) - glm::vec2(part.origin) - 0.5f;
+        const float step = float(pixel) / float(reduction);
+        for (int i = 0; i < taps * taps; ++i) {
+            const glm::vec2 at = middle + step * tap_offset(i, taps);
+            const auto x = along(at.x, part.extent.x, repeats.x), y = along(at.y, part.extent.y, repeats.y);
+            const auto in_row = [&](const float* slice, int row) {
+                const float* const from = slice + std::size_t(row) * std::size_t(extent.x);
+                return from[x.first] + (from[x.second] - from[x.first]) * x.weight;
+            };
+            const auto in_slice = [&](const float* slice) {
+                const float first = in_row(slice, y.first);
+                return first + (in_row(slice, y.second) - first) * y.weight;
+            };
+            const float first = in_slice(a);
+            horizons[i] = slices.weight == 0.0f ? first : first + (in_slice(b) - first) * slices.weight;
+        }
+    }
+};
 
 struct verdict {
     double mismatch = 1.0, interval = 0.0, degrees = 90.0;
+    double pack_seconds = 0.0;  // of the patches
     shadow_edge edge = {};
 };
 
 // Every light of every look under one edge.
+//   horizons: taps * taps of each look
 [[nodiscard]] inline verdict judge(std::span<const look> looks, const float* horizons, const recipe& r, const view& v,
                                    int patch_count, const shadow_edge& edge) {
-    const std::size_t each = looks.size() / std::size_t(patch_count);
+    const std::size_t each = looks.size() / std::size_t(patch_count), places = std::size_t(r.taps * r.taps);
     const double answers = double(each) * v.lights;
     double sum = 0.0, squares = 0.0;
     for (int p = 0; p < patch_count; ++p) {
@@ -106,7 +100,10 @@ struct verdict {
             for (int e = 0; e < v.lights; ++e) {
                 const float level =
                     quantity_of_slope(r.encoding.scale.stored, looks[i].light[e]) * stored_scale(r.encoding.scale);
-                wrong += double(std::abs(shadow_detail::edge_factor(level, horizons[i], edge) - looks[i].lit[e]));
+                float lit = 0.0f;
+                for (std::size_t t = i * places; t < (i + 1) * places; ++t)
+                    lit += shadow_detail::edge_factor(level, horizons[t], edge);
+                wrong += double(std::abs(lit / float(places) - looks[i].lit[e]));
             }
         sum += wrong / answers;
         squares += wrong / answers * (wrong / answers);
@@ -121,41 +118,61 @@ struct verdict {
     return found;
 }
 
-// Packs horizons of the stack as the recipe says and looks at them as its shader does.
-//   slopes: in `directions`, reduced and cropped; texels: scratch for the texture; horizons: scratch, one a look
+// A pixel of many texels is lit in part: the centered edge that is as wide as their horizons differ.
+template <class Judge>
+[[nodiscard]] verdict find_edge(const Judge& judge_edge) {
+    constexpr float widths[] = {64.0f, 45.0f, 32.0f, 23.0f, 16.0f, 11.0f, 8.0f, 5.6f, 4.0f, 2.8f, 2.0f, 1.4f, 1.0f};
+    constexpr int count = int(std::size(widths));
+    int best = 6;
+    verdict found = judge_edge(shadow_edge{widths[best], 0.5f});
+    for (const int step : {-1, 1})
+        for (int next = best + step; next >= 0 && next < count; next += step) {
+            const verdict other = judge_edge(shadow_edge{widths[next], 0.5f});
+            if (!(other.mismatch < found.mismatch)) break;
+            found = other;
+            best = next;
+        }
+    return found;
+}
+
+// Packs horizons of patches as the recipe says and looks at them as its shader does.
+//   slopes: in `directions`, reduced and cropped, side by side; texels, values: scratch for the texture; horizons:
+//   scratch, taps * taps of a look
 [[nodiscard]] inline status try_recipe(const horizon_map& slopes, std::span<const glm::dvec2> directions,
                                        const recipe& r, int reduction, const view& v, const patches& all,
-                                       std::span<const look> looks, std::span<std::byte> texels, float* horizons,
-                                       std::pmr::memory_resource* memory, verdict& found) {
+                                       std::span<const look> looks, std::span<std::byte> texels, float* values,
+                                       float* horizons, std::pmr::memory_resource* memory, verdict& found) {
     const texture_layout layout = layout_of(r.encoding, slopes.extent);
     const texture packed{texels.first(layout.required_size()), layout};
     pack_options options;
     options.fit = r.fit;
     options.memory = memory;
+    const auto start = std::chrono::steady_clock::now();
     if (status s = pack_tangent_volume(slopes, directions, r.encoding, options, packed); !s) return s;
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+
     const const_texture from{packed.bytes, layout};
+    float* to = values;
+    for (int slice = 0; slice < r.encoding.slices.count; ++slice)
+        for (int y = 0; y < layout.extent.y; ++y, to += layout.extent.x)
+            tangent_volume_detail::read_texels(from, 0, slice, 0, y, layout.extent.x, to);
     const rectangle part = all.part(reduction);
-    const sampler how{.x = address_mode::clamp, .y = address_mode::clamp};
+    const unpacked texture{r.encoding, from, values, part, all.repeats, reduction, all.pixel};
+    const int places = r.taps * r.taps;
     double degrees = 0.0;
     for (std::size_t i = 0; i < looks.size(); ++i) {
-        const look& l = looks[i];
-        const glm::vec3 light(l.direction.x, l.direction.y, l.light[0]);
-        const glm::vec2 in_part = l.place / float(reduction) - glm::vec2(part.origin);
-        const glm::vec2 uv = (in_part + glm::vec2(0.0f, float(l.patch * part.extent.y))) / glm::vec2(slopes.extent);
-        horizons[i] = horizon(r.encoding, from, how, uv, light);
-        const double slope = double(slope_of_stored(r.encoding.scale, horizons[i]));
-        degrees +=
-            std::abs(std::atan(slope) - std::atan((std::min)(double(l.horizon), double(r.encoding.scale.max_slope))));
+        float* const at = horizons + i * std::size_t(places);
+        texture.read(looks[i], r.taps, at);
+        double slope = 0.0;
+        for (int t = 0; t < places; ++t) slope += double(slope_of_stored(r.encoding.scale, at[t])) / places;
+        degrees += std::abs(std::atan(slope) -
+                            std::atan((std::min)(double(looks[i].horizon), double(r.encoding.scale.max_slope))));
     }
-    found = judge(looks, horizons, r, v, all.count, {});
-    // A pixel of many texels is lit in part: the edge that is as wide as their horizons differ.
-    for (const float k : {64.0f, 32.0f, 16.0f, 12.0f, 8.0f, 6.0f, 4.0f, 3.0f, 2.0f, 1.0f})
-        for (const float c : {0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f}) {
-            if (v.pixel == 1) break;
-            const verdict soft = judge(looks, horizons, r, v, all.count, {k, c});
-            if (soft.mismatch < found.mismatch) found = soft;
-        }
+    const int count = slopes.extent.x / part.extent.x;
+    const auto judge_edge = [&](const shadow_edge& edge) { return judge(looks, horizons, r, v, count, edge); };
+    found = all.pixel == 1 ? judge_edge({}) : find_edge(judge_edge);
     found.degrees = degrees / double(looks.size()) * (180.0 / std::numbers::pi);
+    found.pack_seconds = time.count();
     return {};
 }
 
