@@ -19,55 +19,151 @@ namespace bs = bumpshadow;
 using namespace json_file;
 using nlohmann::ordered_json;
 
-const std::vector<std::pair<std::string, bs::texel_format>> formats{{"r8", bs::texel_format::r8},
-                                                                    {"r16", bs::texel_format::r16},
-                                                                    {"r16f", bs::texel_format::r16f},
-                                                                    {"bc4", bs::texel_format::bc4}};
-const std::vector<std::pair<std::string, bs::texture_kind>> kinds{
+template <class Value>
+using words_of = std::vector<std::pair<std::string, Value>>;
+
+const words_of<bs::texel_format> formats{{"r8", bs::texel_format::r8},
+                                         {"r16", bs::texel_format::r16},
+                                         {"r16f", bs::texel_format::r16f},
+                                         {"bc4", bs::texel_format::bc4}};
+const words_of<bs::texture_kind> kinds{
     {"flat", bs::texture_kind::flat}, {"array", bs::texture_kind::array}, {"volume", bs::texture_kind::volume}};
-const std::vector<std::pair<std::string, bs::slice_fit>> fits{{"point", bs::slice_fit::point},
-                                                              {"least-squares", bs::slice_fit::least_squares},
-                                                              {"least-angle", bs::slice_fit::least_angle}};
-std::vector<std::pair<std::string, bs::plan_obstacle>> obstacles() {
-    std::vector<std::pair<std::string, bs::plan_obstacle>> all;
+const words_of<bs::slice_fit> fits{{"point", bs::slice_fit::point},
+                                   {"least-squares", bs::slice_fit::least_squares},
+                                   {"least-angle", bs::slice_fit::least_angle}};
+words_of<bs::plan_obstacle> obstacles() {
+    words_of<bs::plan_obstacle> all;
     for (int i = 0; i <= int(bs::plan_obstacle::textures); ++i)
         all.emplace_back(name_of(bs::plan_obstacle(i)), bs::plan_obstacle(i));
     return all;
 }
 
-ordered_json number_or_null(double n) { return std::isfinite(n) ? ordered_json(n) : ordered_json(nullptr); }
+constexpr int most_taps = 16;
+
+// The fields of a recipe, in their order, for writing and for reading. A visitor has
+//   inside(key, body)             an object, whose fields body(visitor) lists
+//   truth, whole, number, choice  a field; a number that may be infinite is null then
+template <class Visitor, class Recipe>
+void list_fields(Visitor& v, Recipe& r) {
+    auto& e = r.encoding;
+    v.truth("shadows", r.shadows);
+    v.choice("obstacle", r.obstacle, obstacles());
+    v.inside("bake", [&](Visitor& bake) {
+        bake.fixed("method", "cascade");
+        bake.whole("steps", r.steps, 1, 1 << 20);
+        bake.number("radius", r.radius, true);
+        bake.whole("reduced_heights", r.reduced_heights, 1, 64);
+        bake.whole("directions", r.directions, 1, 65536);
+    });
+    v.inside("texture", [&](Visitor& texture) {
+        texture.whole("reduction", r.reduction, 1, 64);
+        texture.whole("slices", e.slices.count, 1, 4096);
+        texture.number("phase", e.slices.phase);
+        texture.number("arc", e.slices.arc);
+        texture.choice("bearing_function", e.slices.function, bearing_function_names);
+        texture.choice("stored", e.scale.stored, quantity_names);
+        texture.number("max_slope", e.scale.max_slope, true);
+        texture.choice("format", e.format, formats);
+        texture.choice("kind", e.kind, kinds);
+        texture.choice("fit", r.fit, fits);
+        texture.truth("mips", r.mips);
+    });
+    v.inside("shader", [&](Visitor& shader) {
+        shader.number("k", r.edge.k, true);
+        shader.number("c", r.edge.c);
+        shader.whole("taps", r.taps, 1, most_taps);
+        shader.truth("above", r.above);
+    });
+    v.truth("wants_normals", r.wants_normals);
+    v.truth("wants_masks", r.wants_masks);
+    v.number("free_tiles", r.free_tiles);
+    v.inside("predicted", [&](Visitor& predicted) {
+        auto& p = r.predicted;
+        predicted.number("mismatch", p.mismatch);
+        predicted.number("interval", p.interval, true);
+        predicted.number("degrees", p.degrees);
+        predicted.number("bytes", p.bytes);
+        predicted.number("bake_seconds", p.bake_seconds);
+        predicted.number("pack_seconds", p.pack_seconds);
+        predicted.number("gpu_cost", p.gpu_cost);
+        predicted.whole("fetches", p.fetches, 0, 2 * most_taps * most_taps);
+    });
+}
+
+class writer {
+public:
+    explicit writer(ordered_json& to) : to_(to) {}
+
+    template <class Body>
+    void inside(const char* key, const Body& body) {
+        ordered_json part = ordered_json::object();
+        writer w(part);
+        body(w);
+        to_[key] = std::move(part);
+    }
+    void fixed(const char* key, const char* word) { to_[key] = word; }
+    void truth(const char* key, bool value) { to_[key] = value; }
+    void whole(const char* key, int value, int, int) { to_[key] = value; }
+    void number(const char* key, double value, bool = false) {
+        to_[key] = std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+    }
+    template <class Value>
+    void choice(const char* key, Value value, const words_of<Value>& words) {
+        to_[key] = word_of(words, value);
+    }
+
+private:
+    ordered_json& to_;
+};
+
+class reader {
+public:
+    explicit reader(object& from) : from_(from) {}
+
+    template <class Body>
+    void inside(const char* key, const Body& body) {
+        object part = from_.inside(key);
+        reader r(part);
+        body(r);
+        part.end();
+    }
+    void fixed(const char* key, const char* word) {
+        if (from_.word(key) != word) from_.refuse(key, word);
+    }
+    void truth(const char* key, bool& value) { value = from_.truth(key); }
+    void whole(const char* key, int& value, int least, int most) { value = from_.whole(key, least, most); }
+    template <class Number>
+    void number(const char* key, Number& value, bool or_null = false) {
+        value = Number(from_.number(key, or_null));
+    }
+    template <class Value>
+    void choice(const char* key, Value& value, const words_of<Value>& words) {
+        value = from_.choice(key, words);
+    }
+
+private:
+    object& from_;
+};
+
+// What no field says by itself.
+void check_together(const bs::recipe& r, object& all) {
+    const bs::tangent_volume& e = r.encoding;
+    if (!(r.radius > 0.0)) all.inside("bake").refuse("radius", "above 0, or null for none");
+    object texture = all.inside("texture");
+    if (r.mips && e.kind == bs::texture_kind::volume && is_arc(e.slices))
+        texture.refuse("mips", "false for a volume over an arc");
+    if (r.mips && e.kind == bs::texture_kind::volume && r.fit == bs::slice_fit::point)
+        texture.refuse("mips", "false for a volume of a point fit");
+    if (r.directions < e.slices.count)
+        texture.refuse("slices", "at most bake.directions, " + std::to_string(r.directions));
+}
 
 }  // namespace
 
 std::string json_of(const bs::recipe& r) {
-    const bs::tangent_volume& e = r.encoding;
-    const bs::plan_figures& p = r.predicted;
     ordered_json all;
-    all["shadows"] = r.shadows;
-    all["obstacle"] = name_of(r.obstacle);
-    all["bake"] = {{"method", "cascade"},
-                   {"steps", r.steps},
-                   {"radius", number_or_null(r.radius)},
-                   {"reduced_heights", r.reduced_heights},
-                   {"directions", r.directions}};
-    all["texture"] = {{"reduction", r.reduction},
-                      {"slices", e.slices.count},
-                      {"phase", e.slices.phase},
-                      {"arc", e.slices.arc},
-                      {"bearing_function", word_of(bearing_function_names, e.slices.function)},
-                      {"stored", word_of(quantity_names, e.scale.stored)},
-                      {"max_slope", number_or_null(double(e.scale.max_slope))},
-                      {"format", word_of(formats, e.format)},
-                      {"kind", word_of(kinds, e.kind)},
-                      {"fit", word_of(fits, r.fit)},
-                      {"mips", r.mips}};
-    all["shader"] = {{"k", number_or_null(double(r.edge.k))}, {"c", double(r.edge.c)}, {"above", r.above}};
-    all["wants_normals"] = r.wants_normals;
-    all["wants_masks"] = r.wants_masks;
-    all["free_tiles"] = r.free_tiles;
-    all["predicted"] = {{"mismatch", p.mismatch}, {"interval", number_or_null(p.interval)}, {"degrees", p.degrees},
-                        {"bytes", p.bytes},       {"bake_seconds", p.bake_seconds},         {"gpu_cost", p.gpu_cost},
-                        {"fetches", p.fetches}};
+    writer w(all);
+    list_fields(w, r);
     all["why"] = ordered_json::array();
     for (int i = 0; i < r.lines; ++i) all["why"].push_back(r.why[std::size_t(i)].text);
     return all.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -77,62 +173,9 @@ bs::recipe recipe_of(const std::string& text, const std::string& name) {
     const json tree = parse(text, name);
     object all(tree, name, "");
     bs::recipe r;
-    bs::tangent_volume& e = r.encoding;
-    r.shadows = all.truth("shadows");
-    r.obstacle = all.choice("obstacle", obstacles());
-    {
-        object bake = all.inside("bake");
-        if (bake.word("method") != "cascade") bake.refuse("method", "cascade");
-        r.steps = bake.whole("steps", 1, 1 << 20);
-        r.radius = bake.number("radius", true);
-        if (!(r.radius > 0.0)) bake.refuse("radius", "above 0, or null for none");
-        r.reduced_heights = bake.whole("reduced_heights", 1, 64);
-        r.directions = bake.whole("directions", 1, 65536);
-        bake.end();
-    }
-    {
-        object texture = all.inside("texture");
-        r.reduction = texture.whole("reduction", 1, 64);
-        e.slices.count = texture.whole("slices", 1, 4096);
-        e.slices.phase = texture.number("phase");
-        e.slices.arc = texture.number("arc");
-        e.slices.function = texture.choice("bearing_function", bearing_function_names);
-        e.scale.stored = texture.choice("stored", quantity_names);
-        e.scale.max_slope = float(texture.number("max_slope", true));
-        e.format = texture.choice("format", formats);
-        e.kind = texture.choice("kind", kinds);
-        r.fit = texture.choice("fit", fits);
-        r.mips = texture.truth("mips");
-        if (r.mips && e.kind == bs::texture_kind::volume && is_arc(e.slices))
-            texture.refuse("mips", "false for a volume over an arc");
-        if (r.mips && e.kind == bs::texture_kind::volume && r.fit == bs::slice_fit::point)
-            texture.refuse("mips", "false for a volume of a point fit");
-        if (r.directions < e.slices.count)
-            texture.refuse("slices", "at most bake.directions, " + std::to_string(r.directions));
-        texture.end();
-    }
-    {
-        object shader = all.inside("shader");
-        r.edge.k = float(shader.number("k", true));
-        r.edge.c = float(shader.number("c"));
-        r.above = shader.truth("above");
-        shader.end();
-    }
-    r.wants_normals = all.truth("wants_normals");
-    r.wants_masks = all.truth("wants_masks");
-    r.free_tiles = all.number("free_tiles");
-    {
-        object predicted = all.inside("predicted");
-        bs::plan_figures& p = r.predicted;
-        p.mismatch = predicted.number("mismatch");
-        p.interval = predicted.number("interval", true);
-        p.degrees = predicted.number("degrees");
-        p.bytes = predicted.number("bytes");
-        p.bake_seconds = predicted.number("bake_seconds");
-        p.gpu_cost = predicted.number("gpu_cost");
-        p.fetches = predicted.whole("fetches", 0, 64);
-        predicted.end();
-    }
+    reader fields(all);
+    list_fields(fields, r);
+    check_together(r, all);
     const json& why = all.at("why");
     if (!why.is_array() || why.size() > r.why.size())
         all.refuse("why", "a list of at most " + std::to_string(r.why.size()) + " texts");
@@ -143,7 +186,7 @@ bs::recipe recipe_of(const std::string& text, const std::string& name) {
         r.say("%s", line.get_ref<const std::string&>().c_str());
     }
     all.end();
-    require(check(e), name + ": texture");
+    require(check(r.encoding), name + ": texture");
     require(check(r.edge), name + ": shader");
     return r;
 }

@@ -56,11 +56,13 @@ recipe any_recipe(unsigned seed) {
     r.fit = slice_fit(n.whole(0, 2));
     r.mips = r.encoding.kind == texture_kind::array && n.coin();
     r.edge = {n.coin() ? std::numeric_limits<float>::infinity() : n.single(), float(n.whole(0, 10)) / 10.0f};
+    r.taps = n.whole(1, 16);
     r.above = n.coin();
     r.wants_normals = n.coin();
     r.wants_masks = n.coin();
     r.free_tiles = n.real();
-    r.predicted = {n.real(), n.coin() ? infinity : n.real(), n.real(), n.real(), n.real(), n.real(), n.whole(0, 2)};
+    r.predicted = {n.real(),     n.coin() ? infinity : n.real(), n.real(), n.real(), n.real(), n.real(), n.real(),
+                   n.whole(0, 2)};
     r.say("%s", "quotes \" and \\, a tab \t and %d");
     for (int i = n.whole(0, 3); i > 0; --i) r.say("line %d of %a", i, n.real());
     return r;
@@ -86,6 +88,7 @@ void check_same(const recipe& a, const recipe& b) {
     CHECK(a.mips == b.mips);
     CHECK(a.edge.k == b.edge.k);
     CHECK(a.edge.c == b.edge.c);
+    CHECK(a.taps == b.taps);
     CHECK(a.above == b.above);
     CHECK(a.wants_normals == b.wants_normals);
     CHECK(a.wants_masks == b.wants_masks);
@@ -95,6 +98,7 @@ void check_same(const recipe& a, const recipe& b) {
     CHECK(a.predicted.degrees == b.predicted.degrees);
     CHECK(a.predicted.bytes == b.predicted.bytes);
     CHECK(a.predicted.bake_seconds == b.predicted.bake_seconds);
+    CHECK(a.predicted.pack_seconds == b.predicted.pack_seconds);
     CHECK(a.predicted.gpu_cost == b.predicted.gpu_cost);
     CHECK(a.predicted.fetches == b.predicted.fetches);
     REQUIRE(a.lines == b.lines);
