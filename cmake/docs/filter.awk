@@ -99,9 +99,17 @@ function split_members(code, documentation,    n, parts, i, type, result) {
     return result
 }
 
-# Markdown: links that lead to no page become text.
+# Markdown: the page has a name, since Doxygen cannot refer to a path with a blank; links that lead to no page become
+# text.
 FILENAME ~ /\.md$/ {
-    gsub(/\]\(tests[^)]*\)/, "]")
+    if (FNR == 1 && FILENAME ~ /migration\.md$/) $0 = $0 " {#migration}"
+    gsub(/\]\(examples\/migration\.md\)/, "](@ref migration)")
+    while (match($0, /\]\(tests[^)]*\)/)) {
+        rest = substr($0, RSTART + RLENGTH)
+        $0 = substr($0, 1, RSTART - 1)
+        match($0, /.*\[/)
+        $0 = substr($0, 1, RLENGTH - 1) substr($0, RLENGTH + 1) rest
+    }
     print
     next
 }
