@@ -13,8 +13,8 @@ namespace bumpshadow {
 // The quantity with the slope that stands for 1. Horizons steeper than max_slope are stored as 1, those below 0 as 0.
 struct horizon_scale {
     quantity stored = quantity::slope;  // what is stored of an elevation
-    // Tangent of the elevation that stands for 1, smallest_max_slope to largest_max_slope; for sine and angle any larger
-    // one, and infinity: all elevations up to 90 degrees.
+    // Tangent of the elevation that stands for 1, smallest_max_slope to largest_max_slope; for sine and angle any
+    // larger one, and infinity: all elevations up to 90 degrees.
     float max_slope = 4.0f;
 };
 

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include <bumpshadow/config.hpp>
+
 namespace bumpshadow::shader_text {
 
 // A function or structure; `needs` has a bit for each snippet that it uses, through others too, and its own.
