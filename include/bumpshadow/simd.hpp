@@ -15,8 +15,12 @@
 #pragma pop_macro("max")
 #pragma pop_macro("min")
 #endif
-#if BUMPSHADOW_SIMD == BUMPSHADOW_SIMD_VECTOR_EXTENSIONS && defined(__SSE__)
+#if BUMPSHADOW_SIMD == BUMPSHADOW_SIMD_VECTOR_EXTENSIONS
+#if defined(__AVX__)
 #include <immintrin.h>
+#elif defined(__SSE__)
+#include <xmmintrin.h>
+#endif
 #endif
 
 // The few operations that the hot loops need, on `width` floats at a time. Memory need not be aligned.
