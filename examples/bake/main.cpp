@@ -75,7 +75,7 @@ void write_slopes(const arguments& arguments, output_kind kind) {
     const int bearings = arguments.bearings.value_or(16);
     if (kind == output_kind::png && !fits_png(std::int64_t(extent.x) * bearings, extent.y, 1))
         throw failure("cannot write " + arguments.output + ": too large for a PNG, write .f32 instead");
-    output_file file(arguments.output);
+    output_file file(path_of(arguments.output));
 
     std::vector<glm::dvec2> directions(std::size_t(bearings), glm::dvec2(1.0, 0.0));
     bs::fill_directions(directions, arguments.phase.value_or(0.0));
@@ -127,7 +127,8 @@ std::filesystem::path numbered(std::filesystem::path path, std::size_t number) {
 void write_textures(const std::string& output, output_kind kind, output_file& first, const encoded& map) {
     std::vector<std::unique_ptr<output_file>> others;
     for (std::size_t i = 0; i < map.textures.size(); ++i) {
-        if (i > 0 && kind == output_kind::dds) others.push_back(std::make_unique<output_file>(numbered(output, i)));
+        if (i > 0 && kind == output_kind::dds)
+            others.push_back(std::make_unique<output_file>(numbered(path_of(output), i)));
         output_file& file = i == 0 || kind == output_kind::raw ? first : *others.back();
         if (kind == output_kind::dds)
             write_dds(file, map.textures[i].view());
@@ -162,7 +163,7 @@ void bake_encoding(const arguments& arguments, output_kind kind) {
     encoding_settings settings = arguments.encoding;
     settings.bearings = arguments.bearings;
     const height_samples samples = read_heights(arguments.heights);
-    output_file file(arguments.output);
+    output_file file(path_of(arguments.output));
     const encoded map = encode_heights(samples, arguments.heights, arguments.horizons, settings, arguments.threads);
     write_textures(arguments.output, kind, file, map);
     if (arguments.json || kind == output_kind::raw)
@@ -175,9 +176,9 @@ void bake_encoding(const arguments& arguments, output_kind kind) {
 
 void bake_planned(const arguments& arguments, output_kind kind) {
     const height_samples samples = read_heights(arguments.heights);
-    output_file file(arguments.output);
+    output_file file(path_of(arguments.output));
     std::optional<output_file> saved;
-    if (!arguments.recipe.save.empty()) saved.emplace(arguments.recipe.save);
+    if (!arguments.recipe.save.empty()) saved.emplace(path_of(arguments.recipe.save));
     const bs::recipe recipe = recipe_for(samples, arguments.heights, arguments.recipe);
     std::optional<encoded> map;
     if (recipe.shadows) map = bake_recipe(samples, arguments.heights, recipe, arguments.threads);
@@ -201,9 +202,9 @@ void bake_planned(const arguments& arguments, output_kind kind) {
 }
 
 void work(const arguments& arguments) {
-    const output_kind kind = kind_of(arguments.output);
+    const output_kind kind = kind_of(path_of(arguments.output));
     std::error_code ignored;
-    if (std::filesystem::equivalent(arguments.heights.path, arguments.output, ignored))
+    if (std::filesystem::equivalent(path_of(arguments.heights.path), path_of(arguments.output), ignored))
         throw failure("cannot write " + arguments.output + ": it is the height map itself");
     const bool textures = kind == output_kind::dds || kind == output_kind::raw, planned = arguments.recipe.given();
     if ((arguments.encoding_given || planned) && !textures)

@@ -23,6 +23,16 @@ inline void require(const bumpshadow::status& status) {
     if (!status) throw failure(status.message().c_str());
 }
 
+// The path that a text in UTF-8 names: one from a command line or a file. On Windows the path's own constructor takes
+// each byte for a letter.
+[[nodiscard]] inline std::filesystem::path path_of(const std::string& text) {
+#ifdef _WIN32
+    return std::u8string(text.begin(), text.end());
+#else
+    return text;
+#endif
+}
+
 // All bytes of a file. Throws failure.
 [[nodiscard]] std::vector<unsigned char> read_file(const std::filesystem::path& path);
 

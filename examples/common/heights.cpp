@@ -16,7 +16,7 @@ namespace {
 }
 
 std::vector<float> read_raw(const height_source& source, glm::ivec2 extent) {
-    const std::vector<unsigned char> file = read_file(source.path);
+    const std::vector<unsigned char> file = read_file(path_of(source.path));
     const std::uint64_t texels = std::uint64_t(extent.x) * std::uint64_t(extent.y);
     if (file.size() % 4 != 0 || file.size() / 4 != texels)
         refuse(source, "it has " + std::to_string(file.size()) + " bytes, but --raw " + std::to_string(extent.x) + " " +
@@ -82,7 +82,7 @@ height_samples from_image(const height_source& source, const image<Sample>& pict
 height_samples read_heights(const height_source& source) {
     height_samples heights = source.raw ? height_samples{*source.raw, read_raw(source, *source.raw)}
                                         : std::visit([&](const auto& picture) { return from_image(source, picture); },
-                                                     read_image(source.path));
+                                                     read_image(path_of(source.path)));
     std::visit(
         [&]<class Sample>(const std::vector<Sample>& samples) {
             if constexpr (std::is_integral_v<Sample>) {

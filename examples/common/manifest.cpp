@@ -67,7 +67,7 @@ std::filesystem::path known_folder() {
     return folder;
 }
 
-std::string name_of(const height_source& map) { return std::filesystem::path(map.path).stem().string(); }
+std::string name_of(const height_source& map) { return path_of(map.path).stem().string(); }
 
 std::vector<height_source> known_maps(std::initializer_list<const char*> names) {
     const std::filesystem::path folder = known_folder();

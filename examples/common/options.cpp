@@ -24,8 +24,8 @@ namespace bs = bumpshadow;
 
 bool same_file(const std::string& a, const std::string& b) {
     std::error_code ignored;
-    return std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal() ||
-           std::filesystem::equivalent(a, b, ignored);
+    return path_of(a).lexically_normal() == path_of(b).lexically_normal() ||
+           std::filesystem::equivalent(path_of(a), path_of(b), ignored);
 }
 
 }  // namespace

@@ -74,8 +74,8 @@ bs::recipe plan_for(const height_samples& samples, const height_source& source, 
 }
 
 bs::recipe recipe_for(const height_samples& samples, const height_source& source, const recipe_settings& settings) {
-    if (settings.plan.empty()) return read_recipe(settings.recipe);
-    const planned_scene scene = read_scene(settings.plan);
+    if (settings.plan.empty()) return read_recipe(path_of(settings.recipe));
+    const planned_scene scene = read_scene(path_of(settings.plan));
     return plan_for(samples, source, scene.view());
 }
 

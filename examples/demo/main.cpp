@@ -166,7 +166,7 @@ private:
 template <class Sample>
 void show(const arguments& arguments, const bs::height_map<Sample>& heights, image8 diffuse, const std::string& name) {
     const bs::threads run(arguments.threads);
-    const std::filesystem::path folder = arguments.folder;
+    const std::filesystem::path folder = path_of(arguments.folder);
     output_folder created(folder);
     pictures files(folder);
     page_facts facts;
@@ -289,7 +289,7 @@ void work(const arguments& arguments) {
         // Textures rarely say how deep they are; a 16th of their size suits most.
         const double usual = std::min(samples.extent.x * texel.x, samples.extent.y * texel.y) / 16.0;
         const double scale = arguments.heights.height_scale.value_or(samples.is_normalized() ? usual : 1.0);
-        const std::string name = std::filesystem::path(arguments.heights.path).filename().string();
+        const std::string name = path_of(arguments.heights.path).filename().string();
         with_height_map(samples, arguments.heights, scale, [&](const auto& map) { show(arguments, map, {}, name); });
     }
     flush_stdout();

@@ -45,12 +45,12 @@ void plan_all(const arguments& arguments) {
     inputs.push_back(arguments.scene);
     for (const std::string& path : inputs) {
         std::error_code ignored;
-        if (!arguments.json.empty() && std::filesystem::equivalent(path, arguments.json, ignored))
+        if (!arguments.json.empty() && std::filesystem::equivalent(path_of(path), path_of(arguments.json), ignored))
             throw failure("cannot write " + arguments.json + ": it is read from");
     }
-    const planned_scene scene = read_scene(arguments.scene);
+    const planned_scene scene = read_scene(path_of(arguments.scene));
     std::optional<output_file> file;
-    if (!arguments.json.empty()) file.emplace(arguments.json);
+    if (!arguments.json.empty()) file.emplace(path_of(arguments.json));
     std::string json = "[", text;
     for (const std::string& path : arguments.heights) {
         height_source source = arguments.how;
@@ -75,7 +75,7 @@ void plan_all(const arguments& arguments) {
 
 void prove(const arguments& arguments) {
     std::optional<output_file> file;
-    if (!arguments.json.empty()) file.emplace(arguments.json);
+    if (!arguments.json.empty()) file.emplace(path_of(arguments.json));
     const proof all = run_proof();
     if (file) {
         file->write(json_of(all));

@@ -46,7 +46,7 @@ struct arguments {
 };
 
 image8 read_picture(const std::string& path) {
-    std::variant<image8, image16> read = read_image(path);
+    std::variant<image8, image16> read = read_image(path_of(path));
     if (image8* picture = std::get_if<image8>(&read)) return std::move(*picture);
     const image16& wide = std::get<image16>(read);
     image8 picture(wide.extent, wide.channels);
@@ -103,12 +103,12 @@ scene make_scene(const arguments& arguments) {
 }
 
 void work(const arguments& arguments) {
-    const std::filesystem::path path = arguments.output;
+    const std::filesystem::path path = path_of(arguments.output);
     if (path.extension() != ".png" && path.extension() != ".PNG")
         throw failure("cannot write " + arguments.output + ": the extension has to be .png");
     for (const std::string& input : {arguments.heights.path, arguments.normal, arguments.diffuse, arguments.detail}) {
         std::error_code ignored;
-        if (!input.empty() && std::filesystem::equivalent(input, path, ignored))
+        if (!input.empty() && std::filesystem::equivalent(path_of(input), path, ignored))
             throw failure("cannot write " + arguments.output + ": it is read from");
     }
     encoding_settings settings = arguments.encoding;
@@ -122,7 +122,7 @@ void work(const arguments& arguments) {
 
     output_file file(path);
     std::optional<output_file> saved;
-    if (!arguments.recipe.save.empty()) saved.emplace(arguments.recipe.save);
+    if (!arguments.recipe.save.empty()) saved.emplace(path_of(arguments.recipe.save));
     scene s = make_scene(arguments);
     const auto [azimuth, elevation] = arguments.light;
     image8 picture;
