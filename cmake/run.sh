@@ -206,8 +206,7 @@ native_result() {
 
 windows() {
     native_result
-    # The first program that runs would have to wait for this, and print what it says.
-    sh "$root/cmake/toolchains/wine.sh" wineboot --init >/dev/null 2>&1 || fail "Wine does not start"
+    sh "$root/cmake/toolchains/wine.sh" --start || fail "Wine does not start"
     workflow windows
 }
 

@@ -8,8 +8,8 @@ cd "$work" || exit 1
 mkdir out
 failures=0
 # Windows has neither limits of file sizes nor signals from outside.
-# shellcheck disable=SC2034 # for the scripts that read this
 posix=yes
+# shellcheck disable=SC2034 # for the scripts that read this
 [ "${BUMPSHADOW_TESTED_SYSTEM-}" != Windows ] || posix=
 
 fail() {
