@@ -87,8 +87,8 @@ struct neighborhood {
 
 // Heights with a margin that resolves the edge, and the taps sorted by direction.
 struct tables {
-    float*
-        heights;  // of texel (0, 0), over the smaller texel size, since squares of small and large units are no floats
+    // Of texel (0, 0); over the smaller texel size, since squares of small and large units are no floats.
+    float* heights;
     std::ptrdiff_t stride;
     tap* taps;
     std::array<std::size_t, neighborhood_directions + 1> first;
@@ -142,8 +142,9 @@ inline void sines(const float* center, std::span<const tap> taps, float* out) {
         }
     }
     for (int x = 0; x < chunk; ++x) {
-        const float square = squared_tangent[x] < 1e30f ? squared_tangent[x] : 1e30f;  // may be infinite
-        out[x] = std::sqrt(square / (1.0f + square));
+        // It may be infinite, or denormal, of which -ffast-math makes a root that is no number.
+        const float square = squared_tangent[x] < 1e30f ? squared_tangent[x] : 1e30f;
+        out[x] = square > 1e-36f ? std::sqrt(square / (1.0f + square)) : 0.0f;
     }
 }
 

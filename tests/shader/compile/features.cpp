@@ -152,7 +152,7 @@ TEST_CASE("what a switch turns off leaves no instruction") {
     };
     const auto defined = [](const char* defines) { return pasted(defines, switched_shadow); };
     check_same("EDGE 0: no penumbra", defined("#define BUMPSHADOW_EDGE 0\n"),
-               edge("level >= max(stored, 0.0) ? 1.0 : 0.0"));
+               edge("level >= max(0.0, stored) ? 1.0 : 0.0"));
     check_same("EDGE 1, BELOW 0: no test for lights below",
                defined("#define BUMPSHADOW_EDGE 1\n#define BUMPSHADOW_BELOW 0\n"),
                edge("min(max(0.0, min(k, 1e30) * (level - stored) + 1.0), 1.0)"));
@@ -162,7 +162,7 @@ TEST_CASE("what a switch turns off leaves no instruction") {
     check_same("EDGE 1, BELOW 1", defined(""),
                edge("level >= 0.0 ? min(max(0.0, min(k, 1e30) * (level - stored) + 1.0), 1.0) : 0.0"));
     check_same("EDGE 0, BELOW 0", defined("#define BUMPSHADOW_EDGE 0\n#define BUMPSHADOW_BELOW 0\n"),
-               edge("level >= max(stored, 0.0) ? 1.0 : 0.0"));
+               edge("level >= max(0.0, stored) ? 1.0 : 0.0"));
     check_same("SAMPLE 1, shadow alone", defined("#define BUMPSHADOW_SAMPLE 1\n"), defined(""));
 
     constexpr const char* bearings[] = {"bumpshadow_bearing_exact", "bumpshadow_bearing_quintic",

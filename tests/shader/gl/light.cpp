@@ -42,7 +42,10 @@ constexpr expression shadow_factors[] = {
     EXPRESSION(1e-6f, bumpshadow_shadow_soft_above(a.x, a.y, a.z, a.w)),
     EXPRESSION(1e-6f, bumpshadow_shadow_soft(a.x, a.y, a.z, a.w)),
     EXPRESSION(1e-6f, bumpshadow_shadow_fade(b.x, b.y, b.z, b.w)),
-    EXPRESSION(1e-6f, bumpshadow_pixel_place(floor(b.w * 0.65f), 5.0f)),
+};
+
+constexpr expression pixel_places[] = {
+    EXPRESSION(1e-6f, bumpshadow_pixel_place(a.x, a.y)),
 };
 
 std::vector<inputs> all_shadows() {
@@ -69,6 +72,13 @@ TEST_CASE("shadow factors are those of C++, and in [0, 1]") {
             CHECK(d.most <= 1.0f);
         }
     }
+}
+
+TEST_CASE("places of a pixel are those of C++") {
+    std::vector<inputs> places;
+    for (const int taps : {1, 2, 3, 4, 8})
+        for (int i = 0; i < taps * taps; ++i) places.push_back({{vec4(float(i), float(taps), 0.0f, 0.0f)}});
+    check(pixel_places, places);
 }
 
 // A comparison that could not fail would be worth nothing.
