@@ -151,10 +151,10 @@ std::string text_of(const bs::recipe& r) {
     const bs::plan_figures& p = r.predicted;
     if (!r.shadows) return text;
     return text + format(
-                      "  predicted: %.2f +- %.2f %% wrong, %.3g bytes a texel, %.3g s to bake on one thread, "
-                      "%.0f cycles a wave, %d fetch%s\n",
-                      100.0 * p.mismatch, 100.0 * p.interval, p.bytes, p.bake_seconds, p.gpu_cost, p.fetches,
-                      p.fetches == 1 ? "" : "es");
+                      "  predicted: %.2f +- %.2f %% wrong, %.3g bytes a texel, %.3g s to bake and %.3g s to pack "
+                      "on one thread, %.0f cycles a wave, %d fetch%s\n",
+                      100.0 * p.mismatch, 100.0 * p.interval, p.bytes, p.bake_seconds, p.pack_seconds, p.gpu_cost,
+                      p.fetches, p.fetches == 1 ? "" : "es");
 }
 
 }  // namespace examples

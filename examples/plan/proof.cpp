@@ -70,11 +70,16 @@ struct usual_map {
     bs::recipe how;
     encoded map;
     set_up_figures figures;
+    double sixteen_seconds = 0.0;
 
     usual_map(const height_samples& samples, const height_source& source) {
         how.encoding.slices.count = 16;
-        how.directions = 64;
+        how.directions = 16;
         double start = seconds();
+        static_cast<void>(bake_for(samples, source, how, 1));
+        sixteen_seconds = seconds() - start;
+        how.directions = 64;
+        start = seconds();
         recipe_horizons horizons = bake_for(samples, source, how, 1);
         const double bake = seconds() - start;
         how.encoding.scale.max_slope = bs::suggest_max_slope(horizons.map);
@@ -90,7 +95,7 @@ struct usual_map {
 std::string percent(double share) { return format("%.2f", 100.0 * share); }
 
 std::vector<proof_line> lines_of(const std::vector<proof_row>& rows) {
-    double bytes = 0.0, bake = 0.0, work = 0.0, slowest = 0.0;
+    double bytes = 0.0, bake = 0.0, work = 0.0, slowest = 0.0, most = 0.0;
     const proof_row* worst = &rows.front();
     std::size_t agreeing = 0, given_up = 0;
     for (const proof_row& row : rows) {
@@ -100,7 +105,9 @@ std::vector<proof_line> lines_of(const std::vector<proof_row>& rows) {
         agreeing += row.agrees() ? 1u : 0u;
         given_up += row.plan.how.obstacle != bs::plan_obstacle::none ? 1u : 0u;
         if (row.excess() > worst->excess()) worst = &row;
-        if (row.extent == glm::ivec2(plan_maps_side)) slowest = std::max(slowest, row.plan.plan_seconds);
+        if (row.extent != glm::ivec2(plan_maps_side)) continue;
+        slowest = std::max(slowest, row.plan.plan_seconds);
+        most = std::max(most, row.plan.plan_seconds / row.sixteen_seconds);
     }
     std::vector<proof_line> lines;
     lines.push_back({format("saves at least 60 %% of the bytes: %.1f %%", 100.0 * bytes), bytes >= 0.6});
@@ -118,7 +125,10 @@ std::vector<proof_line> lines_of(const std::vector<proof_row>& rows) {
                             agreeing, rows.size()),
                      agreeing == rows.size()});
     lines.push_back(
-        {format("plans for 1024 x 1024 texels in less than 0.5 s: at most %.2f s", slowest), slowest < 0.5});
+        {format("plans for 1024 x 1024 texels in less than 0.5 s: at most %.2f s, %.1f times the bake of 16 "
+                "bearings",
+                slowest, most),
+         slowest < 0.5});
     return lines;
 }
 
@@ -179,7 +189,13 @@ proof run_proof() {
             if (terrain) scene.lights.limits.mismatch = 0.01;
             const bs::scene wanted = scene.lights.view();
             const lit_pixels pixels(samples, source, wanted, measuring_seed);
-            proof_row row{terrain ? "terrain" : scene.name, name_of(source), samples.extent, wanted.mismatch, {}, {}};
+            proof_row row{terrain ? "terrain" : scene.name,
+                          name_of(source),
+                          samples.extent,
+                          wanted.mismatch,
+                          {},
+                          {},
+                          usual.sixteen_seconds};
             row.plan = plan_map(samples, source, wanted, &pixels);
             row.usual = usual.figures;
             row.usual.error = pixels.of(usual.map, {});
@@ -202,7 +218,7 @@ proof run_proof() {
 std::string table_of(const proof& all) {
     std::vector<std::vector<std::string>> rows{{"scene, map", "asked %", "predicted %", "measured %", "agree", "bytes",
                                                 "of", "bake s", "of", "pack s", "of", "cycles", "of", "fetches",
-                                                "plan s", "unplanned %"}};
+                                                "plan s", "plan / 16", "unplanned %"}};
     for (const proof_row& row : all.rows) {
         const set_up_figures &f = row.plan.figures, &u = row.usual;
         const bs::plan_figures& p = row.plan.how.predicted;
@@ -216,13 +232,16 @@ std::string table_of(const proof& all) {
                         format("%.3f", u.bake_seconds), format("%.4f", f.pack_seconds), format("%.3f", u.pack_seconds),
                         format("%.0f", f.gpu_cost), format("%.0f", u.gpu_cost), format("%d", f.fetches),
                         format("%.2f", row.plan.plan_seconds),
+                        format("%.1f", row.plan.plan_seconds / row.sixteen_seconds),
                         percent(u.error.mismatch) + " +- " + percent(u.error.interval)});
     }
     std::string text = lined_up(rows);
     text +=
         "\nmeasured: the whole map, baked and packed, in exact light: 3000 texels of another seed in 16 bearings, "
-        "48000 of a fixed sun, 12000 of the torch;\nof distant views 1000 squares of 8 x 8 texels, one fetch each. "
-        "With the 95 % confidence interval. seconds: of the processor, one thread.\n"
+        "48000 of a fixed sun, 12000 of the torch;\nof distant views 1000 squares of 8 x 8 texels, in as many places "
+        "as "
+        "the plan says, unplanned in one. With the 95 % confidence interval.\nseconds: of the processor, one thread; "
+        "plan / 16: over the bake of 16 bearings. "
         "of, unplanned: 16 slices of 8 bits at full size, fitted to 64 directions. torch: four point lights, half a "
         "map's width from its\nmiddle along +x, +y, -x and -y, a fifth of the width high.\n\n";
     for (const proof_line& line : all.lines) {

@@ -37,6 +37,7 @@ struct proof_row {
     double asked = 0.0;  // mismatch
     planned_map plan;
     set_up_figures usual;
+    double sixteen_seconds = 0.0;  // the bake of 16 bearings
 
     // Within 20 % of what is measured, or 0.1 percentage points.
     [[nodiscard]] bool agrees() const;

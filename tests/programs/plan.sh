@@ -137,6 +137,21 @@ bad_scene 'is no JSON' ''
 bad_scene 'is no JSON' '{"mismatch": 1e999}'
 bad_scene 'has to be an object' '[1]'
 
+# ---- Mips, which a recipe may be given ----
+
+program=$bake
+for asked in '{"mismatch": 0.05, "bc4": false, "volumes": false}' \
+    '{"mismatch": 0.05, "bc4": false, "volumes": false, "arc": {"azimuth": [0, 90]}}'; do
+    scene "$asked"
+    run in/hill.png $hill -o out/a.raw --plan scene.json --save-recipe out/a.json
+    sed 's/"mips":false/"mips":true/' out/a.json >out/m.json
+    run in/hill.png $hill -o out/m.raw --recipe out/m.json
+    # Levels of a quarter of the texels each add a third at the most.
+    one=$(wc -c <out/a.raw) all=$(wc -c <out/m.raw)
+    [ "$all" -gt $((one * 5 / 4)) ] && [ "$all" -le $((one * 4 / 3)) ] || fail "$one bytes, with mips $all"
+done
+rm -f out/*
+
 # ---- Recipes that are refused ----
 
 program=$bake

@@ -32,8 +32,8 @@ inline constexpr int most_patches = 512, most_patches_of_one = 2048;  // the lat
 inline constexpr int most_reduction = 8;
 // Where the middles of pixels are: in the middle of a patch, so that reduced texels on all sides of them are there.
 inline constexpr int core_first = 12, core_side = 8;
-inline constexpr int elevations = 4;  // of an arc, in each bearing
-inline constexpr int bearings = 16;   // of an arc
+inline constexpr int elevations = 4;                     // of an arc, in each bearing
+inline constexpr int bearings = 8, baked_bearings = 12;  // of an arc
 // Rays of exact: each takes a microsecond or two.
 inline constexpr int most_rays = 16384;
 
@@ -117,7 +117,7 @@ struct view {
     view v;
     const std::size_t fixed = !s.lights.empty() ? s.lights.size() : s.positions.size();
     const bool baked = is_baked(s, all);
-    const int most = all.pixel == 1 ? bearings / 2 : baked ? bearings : 1;
+    const int most = all.pixel == 1 ? bearings : baked ? baked_bearings : 1;
     v.rays = fixed == 0 ? most : int((std::min)(fixed, std::size_t(most)));
     v.lights = fixed == 0 ? elevations : 1;
     const int each = baked ? 1 : all.pixel * all.pixel;

@@ -30,12 +30,13 @@ struct scene {
     double light_radius = 0.0;                   // angular radius in degrees, 0 to 45; 0: hard edges
 
     // Error that is bearable.
-    double mismatch = 0.015;  // share of (texel, light) that is lit or shadowed wrongly
+    // Share of (texel, light) that is lit or shadowed wrongly; of pixels of many texels, mean difference of the factor.
+    double mismatch = 0.015;
     double degrees = std::numeric_limits<double>::infinity();  // mean error of the horizon's elevation in the bearings
 
     // What there is to spend.
     double bytes = std::numeric_limits<double>::infinity();         // a texel of the height map
-    double bake_seconds = std::numeric_limits<double>::infinity();  // on one thread of this machine
+    double bake_seconds = std::numeric_limits<double>::infinity();  // bake and packing, on one thread of this machine
     double gpu_cost = std::numeric_limits<double>::infinity();      // cycles a wave as shader_cost prints them
 
     // Textures that the platform has, besides flat ones of 8 bits: volumes, arrays, BC4. Without volumes and arrays
@@ -43,7 +44,7 @@ struct scene {
     bool volumes = true, arrays = true, bc4 = true;
     bool has_normals = true;        // a normal map exists; else one is proposed
     bool has_lightmaps = false;     // light is baked in three directions: masks serve it without a light's direction
-    double texels_per_pixel = 1.0;  // of the nearest view, at least 1; above 8 as 8
+    double texels_per_pixel = 1.0;  // of the nearest view, at least 1; taken as 1, 2, 4 or 8
 };
 
 // Checks all of it, and names what is wrong.

@@ -37,7 +37,7 @@ template <height_sample Sample>
     static constexpr int of_32[] = {0, 4, 6, 8, 12, 16, 24, 32}, of_24[] = {0, 1, 2, 3, 4, 6, 8, 12, 24},
                          of_12[] = {0, 1, 2, 3, 4, 6, 12}, none[] = {0};
     if (w.divisions == 1 || !(w.wanted.volumes || w.wanted.arrays)) return none;
-    if (w.divisions == 32) return of_32;
+    if (w.range.arc == 1.0) return std::span<const int>(of_32).first(w.divisions == 32 ? 8 : 7);
     return w.divisions == 24 ? std::span<const int>(of_24) : std::span<const int>(of_12);
 }
 

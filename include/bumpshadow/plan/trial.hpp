@@ -59,7 +59,7 @@ struct unpacked {
         const auto along = [](float at, int size, bool repeat) {
             const float floor = std::floor(at);
             const int i = int(floor);
-            const auto inside = [&](int n) { return repeat ? (n + size) % size : std::clamp(n, 0, size - 1); };
+            const auto inside = [&](int n) { return repeat ? (n + size) % size : (std::clamp)(n, 0, size - 1); };
             return sampler_detail::tap{inside(i), inside(i + 1), at - floor};
         };
         const glm::vec2 middle = l.place / float(reduction) - glm::vec2(part.origin) - 0.5f;

@@ -118,7 +118,9 @@ struct workshop {
 private:
     void choose_directions() {
         const bool is_part = range.arc > 0.0 && range.arc < 1.0;
-        divisions = range.arc == 0.0 ? 1 : range.arc == 1.0 ? 32 : range.arc > 0.3 ? 24 : 12;
+        // Averages over pixels tell fewer bearings apart.
+        const int around = wanted.texels_per_pixel < 2.0 ? 32 : 24;
+        divisions = range.arc == 0.0 ? 1 : range.arc == 1.0 ? around : range.arc > 0.3 ? 24 : 12;
         slices.count = divisions + (is_part ? 1 : 0);
         slices.arc = range.arc;
         // The cheaper bearing from the start where the better one is beyond the budget.
@@ -156,9 +158,10 @@ private:
         layout.add<float>(directions_at_once * of_map).add<float>(of_map).add<float>(row).add<float>(row);
         std::size_t most = 0;
         for (const int by : {1, 2, 4, 8}) {
-            if (!sample.divides(by)) continue;
+            if (!is_tried(by)) continue;
             const std::size_t packed = required_size(sample.packed(by, sample.count), slices.count);
-            layout.add<float>(packed).add<float>(packed);
+            layout.add<float>(packed);
+            if (by > 1) layout.add<float>(packed);
             most = (std::max)(most, packed);
         }
         const std::size_t of_bake = cascade_scratch_size(heights);
