@@ -6,6 +6,7 @@
 #   sh cmake/run.sh test                          build everything, run the tests
 #   sh cmake/run.sh clang                         the same with clang++
 #   sh cmake/run.sh sanitize                      the same with address and undefined behavior sanitizers
+#   sh cmake/run.sh sanitize-library              these, but of the library alone: no programs, no shaders
 #   sh cmake/run.sh windows                       the tests for Windows by MinGW, run under Wine
 #   sh cmake/run.sh arm                           for 64-bit Arm, run under QEMU, twice: the compiler's vectors and xsimd
 #   sh cmake/run.sh web                           golden bytes and a bake in WebAssembly by Emscripten, run under Node
@@ -369,7 +370,7 @@ case $command in
         workflow report
         run_into report "$@"
         ;;
-    test | sanitize)
+    test | sanitize | sanitize-library)
         [ "${CXX-}" != clang++ ] || set_up clang
         set_up shaders properties consumers
         workflow "$command"
