@@ -33,6 +33,7 @@
 #include <bumpshadow/plan.hpp>
 #include <bumpshadow/quantize.hpp>
 #include <bumpshadow/reference/lighting.hpp>
+#include <bumpshadow/reference/pixel_shadow.hpp>
 #include <bumpshadow/reference/reflection.hpp>
 #include <bumpshadow/reference/sampler.hpp>
 #include <bumpshadow/reference/shade.hpp>

@@ -26,13 +26,15 @@ struct plan_options {
 // Plans shadows for a height map and a scene: tries set-ups on patches of this very map, judged by exact horizons
 // (pixels of many texels by the cascade's), and returns the one of fewest bytes, then of the least work to bake and to
 // pack, then of the cheapest shader, whose error is within what the scene allows. So pixels of many texels are looked
-// at in up to 16 places; what that may cost, scene::gpu_cost says. Cost: up to 45 directions of the cascade, 16384 rays
-// of exact, and the trials: 1.5 times the bake of 16 bearings for one light, 5 to 7 times for light from all around, at
-// 1024 x 1024 texels. Memory: from the resource, about 40 bytes a texel and 55 MiB. Accuracy: what it predicts is a
-// sample of 512 patches, of a single bearing 2048: within 20 % of what is measured or 0.1 percentage points in all of
-// 37 scenes on 7 maps (`plan --proof`); predicted.interval says how sure it is. Borders of maps that do not repeat are
-// not in the sample. Errors: those of check() of heights and scene, not_finite heights, a map of nothing but holes
-// (missing); memory. Then `result` is left as it was.
+// at in up to 16 places; scene::gpu_cost bounds what that may cost.
+// Cost: up to 45 directions of the cascade, 16384 rays of exact, and the trials: at 1024 x 1024 texels as long as the
+// bake of 16 bearings for one light, 3 to 5 times as long for light from many bearings.
+// Memory: from the resource, about 40 bytes a texel and 55 MiB.
+// Accuracy: what it predicts is a sample of 512 patches, of a single bearing 2048: within 20 % of what is measured or
+// 0.1 percentage points in all of 37 scenes on 7 maps (`plan --proof`); predicted.interval says how sure it is. Borders
+// of maps that do not repeat are not in the sample.
+// Errors: those of check() of heights and scene, not_finite heights, a map of nothing but holes (missing); memory. Then
+// `result` is left as it was.
 template <height_sample Sample>
 [[nodiscard]] status plan(const height_map<Sample>& heights, const scene& wanted, recipe& result,
                           const plan_options& options = {}) {
