@@ -417,6 +417,12 @@ case $command in
         windows
         arm
         web
+        (
+            cd "$root"
+            cmake --preset web -B build/web-plain -DBUMPSHADOW_SIMD=none
+            cmake --build build/web-plain --target bumpshadow_cross
+            ctest --test-dir build/web-plain --output-on-failure --no-tests=error --tests-regex '^native$'
+        )
         thread_sanitizer
         memory_sanitizer
         under_valgrind

@@ -5,8 +5,8 @@ if(NOT root)
 endif()
 # Files are those of the machine; and Node, which can fetch since 18, would look for a program beside it on the network.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-sNODERAWFS=1 -sSINGLE_FILE=1 -sALLOW_MEMORY_GROWTH=1")
-# Debian's is from before parts of C++20 were there.
-set(CMAKE_CXX_FLAGS_INIT "-fexceptions -isystem \"${CMAKE_CURRENT_LIST_DIR}/web\"")
+# Debian's is from before parts of C++20 were there. Vectors have been in every browser since 2023.
+set(CMAKE_CXX_FLAGS_INIT "-fexceptions -msimd128 -isystem \"${CMAKE_CURRENT_LIST_DIR}/web\"")
 include("${root}/cmake/Modules/Platform/Emscripten.cmake")
 set(CMAKE_CROSSCOMPILING_EMULATOR node)
 include("${CMAKE_CURRENT_LIST_DIR}/packages.cmake")

@@ -32,7 +32,8 @@
 
 // How hot loops are vectorized: values of BUMPSHADOW_SIMD. Never guessed from the headers that happen to be installed.
 //   0  plain loops
-//   1  the vector extensions of GCC and Clang (default there); the width follows the target, e.g. -march=native
+//   1  the vector extensions of GCC and Clang (default there, but for WebAssembly without -msimd128, where they are
+//      slower than 0); the width follows the target, e.g. -march=native
 //   2  xsimd, which the build then has to provide
 #define BUMPSHADOW_SIMD_NONE 0
 // Value of BUMPSHADOW_SIMD for the compiler's own vectors.
@@ -42,7 +43,7 @@
 
 // One of these three, the same in every translation unit.
 #ifndef BUMPSHADOW_SIMD
-#if defined(__GNUC__) || defined(__clang__)
+#if (defined(__GNUC__) || defined(__clang__)) && (!defined(__wasm__) || defined(__wasm_simd128__))
 #define BUMPSHADOW_SIMD BUMPSHADOW_SIMD_VECTOR_EXTENSIONS
 #else
 #define BUMPSHADOW_SIMD BUMPSHADOW_SIMD_NONE

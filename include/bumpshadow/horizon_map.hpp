@@ -58,6 +58,8 @@ struct horizon_map {
 inline constexpr int most_steps = 65536;
 
 // What every method that bakes horizons takes besides heights, directions and output.
+// Another compiler or machine bakes the same bits where both fuse multiplications with additions or neither does;
+// otherwise elevations differ by up to 0.0002 degrees, those of sweep by 0.00001 (the demo's wall, 16 bearings).
 struct bake_options {
     // Cascade: how far texels are looked at one by one, 7/12 as far from 32 on, where what follows is looked at finely;
     // 1 to most_steps. Error falls and cost grows with it. Other methods ignore it.
