@@ -151,6 +151,7 @@ bs::bake_options allowed(method which, bs::bake_options options) {
 std::size_t differing(const slopes& a, const slopes& b) {
     RC_ASSERT(a.size() == b.size());
     std::size_t count = 0;
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bit for bit
     for (std::size_t i = 0; i < a.size(); ++i) count += std::memcmp(&a[i], &b[i], sizeof(float)) != 0 ? 1 : 0;
     return count;
 }

@@ -141,6 +141,7 @@ bool check_symmetry() {
                 for (int y = 0; y < w.extent.y; ++y)
                     for (int x = 0; x < w.extent.x / 2; ++x) w.at(w.extent.x - 1 - x, y) = w.at(x, y);
             compare(w, chosen(w, c.of), c.which, c.by, [&](float a, float b) {
+                // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bit for bit
                 const bool same = std::memcmp(&a, &b, sizeof a) == 0;
                 bits += same ? 0 : 1;
                 differences.add(std::abs(degrees(a) - degrees(b)), 0.01);
