@@ -27,7 +27,7 @@ struct plan_options {
 // (pixels of many texels by the cascade's), and returns the one of fewest bytes, then of the least work to bake and to
 // pack, then of the cheapest shader, whose error is within what the scene allows. So pixels of many texels are looked
 // at in up to 16 places; scene::gpu_cost bounds what that may cost.
-// Cost: up to 45 directions of the cascade, 16384 rays of exact, and the trials: at 1024 x 1024 texels as long as the
+// Cost: up to 45 directions of the cascade, 32768 rays of exact, and the trials: at 1024 x 1024 texels as long as the
 // bake of 16 bearings for one light, 3 to 5 times as long for light from many bearings.
 // Memory: from the resource, about 40 bytes a texel and 55 MiB.
 // Accuracy: what it predicts is a sample of 512 patches, of a single bearing 2048: within 20 % of what is measured or

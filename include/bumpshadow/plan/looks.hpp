@@ -34,8 +34,9 @@ inline constexpr int most_reduction = 8;
 inline constexpr int core_first = 12, core_side = 8;
 inline constexpr int elevations = 4;                     // of an arc, in each bearing
 inline constexpr int bearings = 8, baked_bearings = 12;  // of an arc
-// Rays of exact: each takes a microsecond or two.
-inline constexpr int most_rays = 16384;
+// Rays of exact, each of which takes a microsecond or two; the latter where each of them is asked about one light
+// alone.
+inline constexpr int most_rays = 16384, most_rays_of_one = 32768;
 
 // Squares of a map, which stand side by side where they are packed. Any number of them from the first on is spread over
 // the map, too. Of maps with borders that do not repeat the outer 12 texels are in no pixel: the sample speaks for the
@@ -121,7 +122,8 @@ struct view {
     v.rays = fixed == 0 ? most : int((std::min)(fixed, std::size_t(most)));
     v.lights = fixed == 0 ? elevations : 1;
     const int each = baked ? 1 : all.pixel * all.pixel;
-    v.pixels = (std::clamp)(most_rays / (all.count * v.rays * each), 1, core_side * core_side / 2);
+    v.pixels = (std::clamp)((fixed == 0 ? most_rays : most_rays_of_one) / (all.count * v.rays * each), 1,
+                            core_side * core_side / 2);
     return v;
 }
 
