@@ -73,7 +73,7 @@ template <height_sample Sample>
         result = r;
         return {};
     }
-    // What part of the sample allowed may be too little for all of it: then with some error in reserve.
+    // What the sample just allows may be too much for the whole map: then again, with some error in reserve.
     const recipe start = r;
     for (const double reserve : {1.0, 0.9, 0.75}) {
         r = start;
