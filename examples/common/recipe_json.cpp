@@ -104,8 +104,9 @@ public:
     void fixed(const char* key, const char* word) { to_[key] = word; }
     void truth(const char* key, bool value) { to_[key] = value; }
     void whole(const char* key, int value, int, int) { to_[key] = value; }
-    void number(const char* key, double value, bool = false) {
-        to_[key] = std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+    template <class Number>
+    void number(const char* key, Number value, bool = false) {
+        to_[key] = std::isfinite(value) ? ordered_json(double(value)) : ordered_json(nullptr);
     }
     template <class Value>
     void choice(const char* key, Value value, const words_of<Value>& words) {
