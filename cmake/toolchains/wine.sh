@@ -25,7 +25,7 @@ find_program() {
 wine=$(find_program wine64 /usr/lib/wine/wine64 wine)
 if [ "$1" != --start ]; then exec "$wine" "$@"; fi
 
-mkdir -p "$(dirname "$WINEPREFIX")"
+mkdir -p "$WINEPREFIX"
 server=$(find_program wineserver64 /usr/lib/wine/wineserver64 wineserver)
+"$server" -p60 || [ $? -eq 2 ]  # 2: it runs already
 "$wine" wineboot --init >/dev/null 2>&1
-"$server" -p60
