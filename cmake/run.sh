@@ -428,6 +428,11 @@ case $command in
         under_valgrind
         tidy
         fuzz
+        if [ -n "${BUMPSHADOW_HEIGHT_MAPS-}" ]; then
+            "$root/build/release/examples/plan" --proof --check
+        else
+            say "plan --proof skipped: BUMPSHADOW_HEIGHT_MAPS is not set"
+        fi
         "$root/build/release/examples/benchmark"
         "$root/build/release/examples/encodings"
         # Built where Vulkan's loader and glslangValidator are.

@@ -10,8 +10,8 @@ WINEDEBUG=-all
 WINEDLLOVERRIDES='mscoree,mshtml,winemenubuilder.exe='
 export LC_ALL WINEPREFIX WINEDEBUG WINEDLLOVERRIDES
 
-# find_program NAME...: the first that is a program; Debian keeps those of 64 bits beside the path, and its script `wine` says
-# on every run that 32-bit programs are not supported.
+# find_program NAME...: the first that is a program; Debian keeps those of 64 bits beside the path, and its script `wine`
+# says on every run that 32-bit programs are not supported.
 find_program() {
     for name; do
         if command -v "$name" >/dev/null 2>&1; then

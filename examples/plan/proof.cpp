@@ -239,9 +239,8 @@ std::string table_of(const proof& all) {
     text +=
         "\nmeasured: the whole map, baked and packed, in exact light: 3000 texels of another seed in 16 bearings, "
         "48000 of a fixed sun, 12000 of the torch;\nof distant views 1000 squares of 8 x 8 texels, in as many places "
-        "as "
-        "the plan says, unplanned in one. With the 95 % confidence interval.\nseconds: of the processor, one thread; "
-        "plan / 16: over the bake of 16 bearings.\n"
+        "as the plan says, unplanned in one. With the 95 % confidence interval.\n"
+        "seconds: of the processor, one thread; plan / 16: over the bake of 16 bearings.\n"
         "of, unplanned: 16 slices of 8 bits at full size, fitted to 64 directions. torch: four point lights, half a "
         "map's width from its\nmiddle along +x, +y, -x and -y, a fifth of the width high.\n\n";
     for (const proof_line& line : all.lines) {

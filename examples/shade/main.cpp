@@ -131,6 +131,7 @@ void work(const arguments& arguments) {
         const bs::recipe recipe = recipe_for(s.samples, s.source, arguments.recipe);
         title = recipe.shadows ? "planned" : "no shadows";
         why = text_of(recipe);
+        if (recipe.taps > 1) why += "drawn with one place a pixel, since a pixel is a texel here\n";
         s.edge = recipe.edge;
         shown what;
         if (recipe.shadows) what = {encoding_kind::tangent, false, bake_recipe(s.samples, s.source, recipe, s.threads)};

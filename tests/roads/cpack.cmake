@@ -29,7 +29,7 @@ find_by_consumer("${WORK}/prefix")
 # ---- The .deb ----
 
 if(NOT DPKG_DEB)
-    message("skipped: the .deb: no dpkg-deb here")
+    message("left out: the .deb, as there is no dpkg-deb here")
     return()
 endif()
 run_well("cpack for Debian" "${cpack}" --config "${BUILD}/CPackConfig.cmake" -G DEB -B "${WORK}/packages")
