@@ -85,7 +85,8 @@ void add_slices(std::vector<shader_case>& all) {
                        "    return bumpshadow_shadow_fade(factor, uv.x, some_k, some_offset);\n"});
     for (const char* taps : {"2", "4"})
         all.push_back(
-            {group, std::string("cubic, centered, lights above, ") + taps + " x " + taps + " places of a pixel", volume, "float",
+            {group, std::string("cubic, centered, lights above, ") + taps + " x " + taps + " places of a pixel", volume,
+             "float",
              bearing("cubic") + "    float l = bumpshadow_slope(light) * some_k, sum = 0.0;\n    const float n = " +
                  taps + ".0;\n    for (float i = 0.0; i < n * n; i += 1.0) {\n" +
                  "        vec2 at = uv + bumpshadow_pixel_place(i, n) * some_offset;\n" +
