@@ -46,7 +46,7 @@ struct normal_map {
     [[nodiscard]] glm::vec3 at(int x, int y) const { return {row(0, y)[x], row(1, y)[x], row(2, y)[x]}; }
     // Stores the normal of texel (x, y).
     void set(int x, int y, glm::vec3 normal) const {
-        for (int c = 0; c < 3; ++c) row(c, y)[x] = normal[c];
+        for (glm::length_t c = 0; c < 3; ++c) row(int(c), y)[x] = normal[c];
     }
     // Floats that `values` has to have: 3 width height where tightly packed.
     [[nodiscard]] constexpr std::size_t required_size() const {

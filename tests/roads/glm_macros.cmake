@@ -7,7 +7,8 @@ file(READ "${PRINTED}" expected)
 function(compile)
     set(definitions ${ARGN})
     list(TRANSFORM definitions PREPEND -DGLM_FORCE_)
-    run_well("compiling with ${definitions}" ${COMPILER} -std=c++20 -Wall -Wextra -Wpedantic -Werror ${definitions}
+    run_well("compiling with ${definitions}" ${COMPILER} -std=c++20 -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+        -Wdouble-promotion -Werror ${definitions}
         "-I${SOURCE}/include" ${glm_flags} -pthread "${SOURCE}/tests/consumer/main.cpp" -o "${WORK}/program")
     run_well("the consumer with ${definitions}" "${WORK}/program")
     expect("what the consumer prints with ${definitions}, which was\n${expected}" output STREQUAL expected)

@@ -220,7 +220,7 @@ template <class Shift, executor Executor = serial>
     const glm::ivec2 extent = heights.layout.extent;
     if (status s = check(base, extent, 3); !s) return s;
     if (status s = check(out, extent, 3); !s) return s;
-    for (int c = 0; c < 3; ++c)
+    for (glm::length_t c = 0; c < 3; ++c)
         if (!(color[c] >= 0.0f && color[c] <= 1.0f)) return {error::out_of_range, "color", double(color[c]), 1.0};
     const bool fourth = color.x != 1.0f || color.y != 1.0f || color.z != 1.0f;
     normal_detail::for_rows(extent.y, execute, [&](int y) {
@@ -235,10 +235,10 @@ template <class Shift, executor Executor = serial>
                 const float relief = shader::bumpshadow_emboss_relief(float(height) / 255.0f, inverse / 255.0f);
                 const glm::vec3 lit = shader::bumpshadow_emboss(
                     relief, glm::vec3(float(bytes[0]), float(bytes[1]), float(bytes[2])) / 255.0f, color);
-                for (int c = 0; c < 3; ++c) bytes[c] = to_unorm8(lit[c]);
+                for (glm::length_t c = 0; c < 3; ++c) bytes[c] = to_unorm8(lit[c]);
             } else {
                 const int sum = (std::min)(height + int(inverse + 0.5f), 255);
-                for (int c = 0; c < 3; ++c) {
+                for (glm::length_t c = 0; c < 3; ++c) {
                     const int product = (sum * bytes[c] + 127) / 255;  // rounded to nearest; there are no ties
                     bytes[c] = (std::min)(2 * product, 255);
                     if (fourth) bytes[c] = to_unorm8(float(bytes[c]) / 255.0f * color[c]);

@@ -137,7 +137,7 @@ struct fourier_decoding {
     decoding.constant_offset = constant.low;
     const float twice = encoding.square_root ? 1.41421356f : 2.0f;
     for (int t = 0; t < 2 && t < texture_count(encoding); ++t)
-        for (int c = 0; c < 4; ++c) {
+        for (glm::length_t c = 0; c < 4; ++c) {
             const int i = channels_of(encoding, t)[std::size_t(c)];
             if (i < 0) continue;
             const fourier_range r = stored_range(encoding, i);

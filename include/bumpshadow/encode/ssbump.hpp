@@ -83,7 +83,7 @@ inline constexpr int chunk = 64;  // texels of a row whose sums stay in register
 
 inline void write(texel_format format, std::byte* row, int x, glm::vec3 masks) {
     if (format == texel_format::rgba8) {
-        for (int c = 0; c < 3; ++c) row[4 * x + c] = std::byte(to_unorm8(masks[c]));
+        for (glm::length_t c = 0; c < 3; ++c) row[4 * x + int(c)] = std::byte(to_unorm8(masks[c]));
         row[4 * x + 3] = std::byte(255);
         return;
     }

@@ -151,7 +151,7 @@ inline void combine(const work& w, const shade_options& options, bool shades, in
     for (int i = 0; i < chunk; ++i) sum[1][i] = w.albedo.y[i] * (ambient.y + color.y * lit[i]);
     for (int i = 0; i < chunk; ++i) sum[2][i] = w.albedo.z[i] * (ambient.z + color.z * lit[i]);
     if (options.specular != glm::vec3(0.0f))
-        for (int c = 0; c < 3; ++c)
+        for (glm::length_t c = 0; c < 3; ++c)
             for (int i = 0; i < chunk; ++i) sum[c][i] += gloss[c] * w.gloss[i] * w.strength[i];
     if (options.add)
         for (int i = 0; i < count; ++i)

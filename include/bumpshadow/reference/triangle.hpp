@@ -48,7 +48,7 @@ struct pixel_light {
                                                    interpolant what, bearing_function function, float most) {
     using namespace shader;
     glm::vec3 bearings(0.0f), slopes(0.0f), sum(0.0f);
-    for (int i = 0; i < 3; ++i) {
+    for (glm::length_t i = 0; i < 3; ++i) {
         const glm::vec3 light = lights[std::size_t(i)];
         bearings[i] = shadow_detail::bearing_of(function, {light.x, light.y});
         slopes[i] = bumpshadow_vertex_slope(light, most);
