@@ -7,7 +7,7 @@ set(umbrella bumpshadow/bumpshadow.hpp)
 # refused(SENTENCE HEADER FLAG...): the compiler's first error.
 function(refused sentence header)
     file(WRITE "${WORK}/main.cpp" "#include <${header}>\n")
-    run(${COMPILER} "-I${include}" ${glm_flags} -fsyntax-only ${ARGN} "${WORK}/main.cpp")
+    run(${COMPILER} "-I${include}" ${ARGN} ${glm_flags} -fsyntax-only "${WORK}/main.cpp")
     string(REGEX MATCHALL "error: [^\n]*" errors "${output}")
     list(LENGTH errors count)
     expect("${header} with ${ARGN}: \"${sentence}\"" count EQUAL 2)
@@ -38,6 +38,27 @@ else()
 endif()
 refused("bumpshadow needs GLM without GLM_FORCE_CTOR_INIT where GLM uses SIMD" ${umbrella}
     -std=c++20 -DGLM_FORCE_CTOR_INIT -DGLM_FORCE_INTRINSICS)
+
+# ---- GLM ----
+
+set(found ${glm_flags})
+set(glm_flags)
+refused("bumpshadow needs GLM 0.9.9.8 or newer: install it (Debian, Ubuntu: libglm-dev) or add its folder with -I"
+    ${umbrella} -std=c++20 -nostdinc)
+set(glm_flags ${found})
+# The one that is here, which says that it is the one before the oldest.
+string(REPLACE "|" ";" folders "${GLM_INCLUDE}")
+foreach(folder IN LISTS folders ITEMS /usr/include /usr/local/include /opt/homebrew/include)
+    if(NOT glm AND EXISTS "${folder}/glm/detail/setup.hpp")
+        set(glm "${folder}/glm")
+    endif()
+endforeach()
+file(COPY "${glm}" DESTINATION "${WORK}/old_glm")
+set(setup "${WORK}/old_glm/glm/detail/setup.hpp")
+file(READ "${setup}" text)
+string(REGEX REPLACE "(define GLM_VERSION[ \t]+)[^\n]*" "\\1997" text "${text}")
+file(WRITE "${setup}" "${text}")
+refused("bumpshadow needs GLM 0.9.9.8 or newer: install a newer one" ${umbrella} -std=c++20 "-I${WORK}/old_glm")
 
 # ---- CMake ----
 
