@@ -25,6 +25,7 @@
 
 // The few operations that the hot loops need, on `width` floats at a time. Memory need not be aligned.
 //   whole      values from 0 to below 2^31 without their fractions
+//   larger, smaller  of numbers; what they make of NaN differs between machines
 // Of two packs a, b, taken as one row of 2 width values:
 //   next<n>    values n ... n + width - 1, n = 1 if not given
 //   even, odd  every other one, from the first or from the second
@@ -45,12 +46,12 @@ inline pack subtract(pack a, pack b) { return a - b; }
 inline pack multiply(pack a, pack b) { return a * b; }
 inline pack divide(pack a, pack b) { return a / b; }
 inline pack multiply_add(pack a, pack b, pack c) { return xsimd::fma(a, b, c); }
-inline pack whole(pack a) { return xsimd::to_float(xsimd::to_int(a)); }
 // GCC 12 warns of a value that AVX-512 leaves undefined on purpose.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
+inline pack whole(pack a) { return xsimd::to_float(xsimd::to_int(a)); }
 inline pack larger(pack a, pack b) { return (xsimd::max)(a, b); }
 inline pack smaller(pack a, pack b) { return (xsimd::min)(a, b); }
 #if defined(__GNUC__) && !defined(__clang__)
