@@ -24,6 +24,15 @@ struct shader_case {
 
 [[nodiscard]] std::vector<shader_case> snippet_cases();
 
+// A shader of a recipe, and the cycles that plan() takes it for on navi21.
+struct planned_case {
+    shader_case which;
+    double planned = 0.0;
+};
+
+// Recipes of every kind of texture with the bearing functions that plan() picks from.
+[[nodiscard]] std::vector<planned_case> planned_cases();
+
 // The whole compute shader, with the snippets that the case calls and no others. Throws std::runtime_error where one
 // does not exist.
 [[nodiscard]] std::string compose(const shader_case& one, const shaders::source& snippets);

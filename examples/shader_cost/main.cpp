@@ -45,6 +45,7 @@ void work(const arguments& arguments) {
     const shaders::source snippets = shaders::read_source(arguments.snippets);
     std::vector<shader_case> cases = yardsticks();
     for (shader_case& one : snippet_cases()) cases.push_back(std::move(one));
+    for (planned_case& one : planned_cases()) cases.push_back(std::move(one.which));
     if (!arguments.show.empty()) {
         const auto at = std::find_if(cases.begin(), cases.end(), [&](const shader_case& one) {
             return one.group + ", " + one.name == arguments.show;

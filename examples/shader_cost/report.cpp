@@ -1,12 +1,16 @@
 #include "shader_cost/report.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/file.hpp"
 #include "common/report_text.hpp"
 
 namespace examples {
 namespace {
+
+// Cycles by which plan()'s table may be off, either way.
+constexpr int planned_margin = 1;
 
 std::string full_name(const shader_case& one) { return one.group + ", " + one.name; }
 
@@ -37,6 +41,12 @@ std::vector<cost_bar> bars_of(std::span<const measured_case> all, std::size_t na
          vertex + "vertex: light into tangent space, bearing and slope, octant",
          {}},
     };
+    // What plan() chooses by is a table, which is to be what the compiler says.
+    for (const planned_case& one : planned_cases()) {
+        const int cycles = int(std::lround(one.planned));
+        bars.push_back(
+            {"what plan() takes it for", full_name(one.which), cycles + planned_margin, cycles - planned_margin});
+    }
     for (cost_bar& bar : bars) {
         const auto at = std::find_if(all.begin(), all.end(),
                                      [&](const measured_case& one) { return full_name(one.which) == bar.name; });
@@ -50,8 +60,9 @@ std::vector<cost_bar> bars_of(std::span<const measured_case> all, std::size_t na
 std::string text_of(const cost_bar& bar) {
     const std::string cost = format(": %d in %d instructions", bar.value, bar.instructions);
     if (!bar.limit) return "no bar: " + bar.what + cost + " (" + bar.name + ")";
-    return (bar.held() ? "held: " : "NOT held: ") + bar.what + cost + format(", at most %d (", *bar.limit) + bar.name +
-           ")";
+    const std::string bounds =
+        (bar.least > 0 ? format(", %d to %d (", bar.least, *bar.limit) : format(", at most %d (", *bar.limit));
+    return (bar.held() ? "held: " : "NOT held: ") + bar.what + cost + bounds + bar.name + ")";
 }
 
 std::string table_of(std::span<const measured_case> all, std::size_t family_index) {
@@ -83,6 +94,7 @@ std::string json_of(std::span<const family> families, std::span<const cost> empt
         json += &bar == bars.data() ? "\n" : ",\n";
         json += "{\"check\":" + quoted(bar.what) + ",\"shader\":" + quoted(bar.name) +
                 format(",\"value\":%d,\"instructions\":%d", bar.value, bar.instructions);
+        if (bar.least > 0) json += format(",\"least\":%d", bar.least);
         if (bar.limit) json += format(",\"limit\":%d,\"held\":%s", *bar.limit, bar.held() ? "true" : "false");
         json += "}";
     }

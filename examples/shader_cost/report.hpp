@@ -19,8 +19,9 @@ struct measured_case {
 struct cost_bar {
     std::string what, name;  // name of the case: "group, name"
     std::optional<int> limit;
+    int least = 0;
     int value = 0, instructions = 0;
-    [[nodiscard]] bool held() const { return !limit || value <= *limit; }
+    [[nodiscard]] bool held() const { return !limit || (value >= least && value <= *limit); }
 };
 
 // navi21: index among the families.
