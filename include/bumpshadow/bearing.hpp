@@ -8,10 +8,8 @@
 #include <span>
 #include <type_traits>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_float2.hpp>
-
 #include <bumpshadow/choices.hpp>
+#include <bumpshadow/glm.hpp>
 
 namespace bumpshadow {
 

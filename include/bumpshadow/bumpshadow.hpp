@@ -2,10 +2,11 @@
 
 // All of bumpshadow's CPU side, but encode/stb_blocks.hpp, which needs stb. Each header can also be included alone.
 
-#include <bumpshadow/config.hpp>  // first: it says what is missing
+#include <bumpshadow/glm.hpp>  // first: it says what is missing
 
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/choices.hpp>
+#include <bumpshadow/config.hpp>
 #include <bumpshadow/encode/bc1.hpp>
 #include <bumpshadow/encode/bc4.hpp>
 #include <bumpshadow/encode/emboss.hpp>

@@ -13,9 +13,6 @@
 #elif !defined(__cpp_concepts) || __cplusplus < 202002L && (!defined(_MSVC_LANG) || _MSVC_LANG < 202002L)
 #error "bumpshadow needs C++20: compile with -std=c++20 or /std:c++20, or link the CMake target bumpshadow::bumpshadow"
 #include "the error above says what to do"
-#elif !__has_include(<glm/ext/vector_int2.hpp>)
-#error "bumpshadow needs GLM 0.9.9.8 or newer: install it (Debian, Ubuntu: libglm-dev) or add its folder with -I"
-#include "the error above says what to do"
 #endif
 
 #include <version>

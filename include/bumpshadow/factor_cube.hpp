@@ -5,10 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_double3.hpp>
-
 #include <bumpshadow/bearing.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/quantize.hpp>
 #include <bumpshadow/status.hpp>
 #include <bumpshadow/texture.hpp>

@@ -6,9 +6,8 @@
 #include <limits>
 #include <span>
 
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/config.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 
 namespace bumpshadow {

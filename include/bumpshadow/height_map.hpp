@@ -7,11 +7,9 @@
 #include <optional>
 #include <type_traits>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/config.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/status.hpp>
 
 namespace bumpshadow {

@@ -7,11 +7,9 @@
 #include <type_traits>
 #include <utility>
 
-#include <glm/ext/vector_float3.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/pixels.hpp>

@@ -3,8 +3,7 @@
 #include <cstddef>
 #include <span>
 
-#include <glm/ext/vector_int2.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/status.hpp>
 
 namespace bumpshadow {

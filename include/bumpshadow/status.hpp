@@ -3,19 +3,8 @@
 #include <cstdio>
 #include <string_view>
 
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/config.hpp>
-
-#if GLM_VERSION < 998
-#error "bumpshadow needs GLM 0.9.9.8 or newer: install a newer one, with CMake set glm_DIR to its folder"
-#include "the error above says what to do"
-#endif
-// Alone, each is supported. Together they leave vectors that no constant expression can hold.
-#if defined(GLM_FORCE_CTOR_INIT) && GLM_CONFIG_SIMD == GLM_ENABLE
-#error "bumpshadow needs GLM without GLM_FORCE_CTOR_INIT where GLM uses SIMD: define one of the two"
-#include "the error above says what to do"
-#endif
+#include <bumpshadow/glm.hpp>
 
 namespace bumpshadow {
 

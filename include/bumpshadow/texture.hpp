@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include <glm/ext/vector_int2.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/status.hpp>
 
 namespace bumpshadow {

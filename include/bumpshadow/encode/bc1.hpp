@@ -3,9 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <glm/ext/vector_float4.hpp>
-
 #include <bumpshadow/config.hpp>
+#include <bumpshadow/glm.hpp>
 
 namespace bumpshadow {
 

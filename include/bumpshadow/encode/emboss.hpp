@@ -7,13 +7,10 @@
 #include <cstdint>
 #include <limits>
 
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_float3.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/encode/mean_level.hpp>
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/normal_map.hpp>
 #include <bumpshadow/pixels.hpp>

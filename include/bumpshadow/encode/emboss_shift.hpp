@@ -6,10 +6,9 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/encode/emboss.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/status.hpp>
 #include <bumpshadow/texture.hpp>
 

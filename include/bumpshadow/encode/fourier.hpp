@@ -9,16 +9,13 @@
 #include <limits>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_float4.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/encode/fourier_series.hpp>
 #include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/encode/slices.hpp>
 #include <bumpshadow/encode/stored_rows.hpp>
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/status.hpp>

@@ -5,15 +5,13 @@
 #include <cstdint>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/encode/fourier.hpp>
 #include <bumpshadow/encode/fourier_series.hpp>
 #include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/encode/reduce.hpp>
 #include <bumpshadow/encode/slices.hpp>
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/status.hpp>

@@ -5,8 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/status.hpp>
 
 // Truncated Fourier series over the bearing, fitted to values in given directions.

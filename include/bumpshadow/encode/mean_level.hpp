@@ -4,9 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/config.hpp>
+#include <bumpshadow/glm.hpp>
 
 namespace bumpshadow::mean_detail {
 

@@ -7,11 +7,10 @@
 #include <memory_resource>
 #include <span>
 
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/encode/slices.hpp>
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/status.hpp>

@@ -5,14 +5,12 @@
 #include <limits>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/encode/slices.hpp>
 #include <bumpshadow/encode/stored_rows.hpp>
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/status.hpp>
 #include <bumpshadow/texture.hpp>

@@ -8,13 +8,11 @@
 #include <memory_resource>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/encode/slice_fit.hpp>
 #include <bumpshadow/encode/slice_reweight.hpp>
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/simd.hpp>

@@ -5,11 +5,10 @@
 #include <cstddef>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/simd.hpp>
 #include <bumpshadow/status.hpp>
 

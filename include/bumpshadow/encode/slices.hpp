@@ -6,15 +6,13 @@
 #include <limits>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/encode/slice_bands.hpp>
 #include <bumpshadow/encode/slice_fit.hpp>
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/simd.hpp>

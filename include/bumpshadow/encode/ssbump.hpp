@@ -9,14 +9,11 @@
 #include <span>
 #include <utility>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_double3.hpp>
-#include <glm/ext/vector_float3.hpp>
-
 #include <bumpshadow/encode/mean_level.hpp>
 #include <bumpshadow/encode/slices.hpp>
 #include <bumpshadow/encode/ssbump_lobes.hpp>
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/normal_map.hpp>
 #include <bumpshadow/quantize.hpp>

@@ -7,9 +7,7 @@
 #include <numbers>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_double3.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/status.hpp>
 

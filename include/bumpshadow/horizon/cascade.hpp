@@ -7,11 +7,9 @@
 #include <cstdint>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/cascade_build.hpp>
 #include <bumpshadow/horizon/cascade_cells.hpp>

@@ -8,8 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include <glm/ext/vector_int2.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/cascade_levels.hpp>
 #include <bumpshadow/scratch.hpp>

@@ -7,9 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon/cascade_far.hpp>
 #include <bumpshadow/horizon/cascade_levels.hpp>
 #include <bumpshadow/horizon/cascade_near.hpp>

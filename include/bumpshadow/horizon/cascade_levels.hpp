@@ -9,9 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/simd.hpp>

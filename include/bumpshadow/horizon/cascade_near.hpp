@@ -5,8 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <glm/ext/vector_double2.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon/cascade_levels.hpp>
 #include <bumpshadow/simd.hpp>
 

@@ -8,10 +8,8 @@
 #include <limits>
 #include <utility>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/cascade_build.hpp>
 #include <bumpshadow/horizon/cascade_cells.hpp>

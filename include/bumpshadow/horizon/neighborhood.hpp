@@ -9,12 +9,10 @@
 #include <numbers>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>

@@ -5,11 +5,9 @@
 #include <cstddef>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/sweep_lines.hpp>
 #include <bumpshadow/horizon_map.hpp>

@@ -6,9 +6,8 @@
 #include <numbers>
 #include <span>
 
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/encode/slices.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/measure/figures.hpp>
 #include <bumpshadow/measure/sample.hpp>

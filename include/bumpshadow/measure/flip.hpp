@@ -8,18 +8,17 @@
 #include <span>
 #include <utility>
 
-#include <glm/common.hpp>
-#include <glm/ext/matrix_float3x3.hpp>
-#include <glm/ext/vector_float3.hpp>
-#include <glm/ext/vector_int2.hpp>
-#include <glm/matrix.hpp>
-
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/measure/flip_filters.hpp>
 #include <bumpshadow/pixels.hpp>
 #include <bumpshadow/reference/lighting.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/status.hpp>
+
+#include <glm/common.hpp>
+#include <glm/ext/matrix_float3x3.hpp>
+#include <glm/matrix.hpp>
 
 // FLIP for pictures of a low dynamic range: at each pixel, how large a person finds the difference between two pictures
 // that are shown in turn at the same place.

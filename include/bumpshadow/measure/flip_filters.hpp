@@ -5,8 +5,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include <glm/ext/vector_float3.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/simd.hpp>
 
 // The filters of flip.hpp, one axis at a time. A Gaussian is the product of itself along x and along y, and so is its

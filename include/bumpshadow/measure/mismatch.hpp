@@ -6,11 +6,7 @@
 #include <numbers>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_float3.hpp>
-#include <glm/ext/vector_int2.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/measure/elevation.hpp>
 #include <bumpshadow/measure/figures.hpp>
 #include <bumpshadow/measure/sample.hpp>

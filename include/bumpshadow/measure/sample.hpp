@@ -7,10 +7,8 @@
 #include <span>
 #include <utility>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_bounds.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/exact.hpp>

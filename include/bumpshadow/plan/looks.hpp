@@ -9,19 +9,15 @@
 #include <numeric>
 #include <span>
 
-#include <glm/common.hpp>
-#include <glm/ext/vector_bool2.hpp>
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_double3.hpp>
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/bearing.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_bounds.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/exact.hpp>
 #include <bumpshadow/measure/sample.hpp>
 #include <bumpshadow/plan/scene.hpp>
+
+#include <glm/common.hpp>
 
 // The sample that a plan is judged by: pixels in patches of the map, lights of the scene, and what exact says of them.
 // Part of plan.hpp.

@@ -5,10 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_double3.hpp>
-
 #include <bumpshadow/bearing.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/plan/scene.hpp>
 

@@ -6,13 +6,11 @@
 #include <limits>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/encode/reduce.hpp>
 #include <bumpshadow/encode/slices.hpp>
 #include <bumpshadow/encode/tangent_volume.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>

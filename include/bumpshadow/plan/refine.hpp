@@ -6,11 +6,10 @@
 #include <cstddef>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/encode/slices.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/plan/range.hpp>

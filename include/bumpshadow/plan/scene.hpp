@@ -3,9 +3,8 @@
 #include <limits>
 #include <span>
 
-#include <glm/ext/vector_double3.hpp>
-
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/status.hpp>
 
 // What a scene asks of its shadows: where light comes from, what error is bearable, and what there is to spend.

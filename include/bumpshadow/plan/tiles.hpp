@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <span>
 
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/encode/slices.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/status.hpp>

@@ -10,13 +10,8 @@
 #include <numbers>
 #include <span>
 
-#include <glm/ext/vector_bool2.hpp>
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_float3.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/encode/tangent_volume.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/measure/figures.hpp>
 #include <bumpshadow/plan/looks.hpp>

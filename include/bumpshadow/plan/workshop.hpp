@@ -11,12 +11,10 @@
 #include <span>
 #include <utility>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/bearing.hpp>
 #include <bumpshadow/encode/reduce.hpp>
 #include <bumpshadow/encode/slices.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_bounds.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/cascade.hpp>

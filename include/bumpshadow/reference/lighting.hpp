@@ -7,18 +7,16 @@
 #include <span>
 #include <utility>
 
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_float3.hpp>
-#include <glm/ext/vector_int2.hpp>
-#include <glm/geometric.hpp>
-
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/normal_map.hpp>
 #include <bumpshadow/pixels.hpp>
 #include <bumpshadow/quantize.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>
 #include <bumpshadow/status.hpp>
+
+#include <glm/geometric.hpp>
 
 // What shade.hpp is given besides shadows: lights, the shape of the surface, and pictures in linear light.
 

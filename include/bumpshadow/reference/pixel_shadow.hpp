@@ -1,8 +1,6 @@
 #pragma once
 
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_float3.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/reference/sampler.hpp>
 #include <bumpshadow/reference/shadow.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>

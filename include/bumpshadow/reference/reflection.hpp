@@ -1,10 +1,7 @@
 #pragma once
 
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_float3.hpp>
-#include <glm/ext/vector_float4.hpp>
-
 #include <bumpshadow/encode/ssbump.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/normal_map.hpp>
 #include <bumpshadow/reference/lighting.hpp>
 #include <bumpshadow/reference/sampler.hpp>

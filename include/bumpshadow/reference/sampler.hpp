@@ -5,20 +5,16 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <glm/common.hpp>
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_float3.hpp>
-#include <glm/ext/vector_float4.hpp>
-#include <glm/ext/vector_int2.hpp>
-#include <glm/ext/vector_int3.hpp>
-
 #include <bumpshadow/config.hpp>
 #include <bumpshadow/encode/bc1.hpp>
 #include <bumpshadow/encode/bc4.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/quantize.hpp>
 #include <bumpshadow/texture.hpp>
+
+#include <glm/common.hpp>
 
 // Reads textures the way a GPU does (OpenGL 4.6, section 8.14; Direct3D 11.3, section 7.18). Textures have to pass
 // check(); coordinates have to be finite; layers have to exist. Levels outside the chain are clamped into it.

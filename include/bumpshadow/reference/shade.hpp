@@ -10,20 +10,18 @@
 #include <type_traits>
 #include <utility>
 
-#include <glm/common.hpp>
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_float3.hpp>
-#include <glm/ext/vector_int2.hpp>
-#include <glm/geometric.hpp>
-
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/normal_map.hpp>
 #include <bumpshadow/pixels.hpp>
 #include <bumpshadow/reference/lighting.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>
 #include <bumpshadow/shader/shader.hpp>
 #include <bumpshadow/status.hpp>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 // Shades a whole picture of a bumpy surface: one light with its shadow, and ambient light.
 //

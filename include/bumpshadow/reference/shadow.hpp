@@ -6,12 +6,6 @@
 #include <cstddef>
 #include <type_traits>
 
-#include <glm/common.hpp>
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_float3.hpp>
-#include <glm/ext/vector_int2.hpp>
-#include <glm/geometric.hpp>
-
 #include <bumpshadow/encode/emboss.hpp>
 #include <bumpshadow/encode/fourier.hpp>
 #include <bumpshadow/encode/quantity.hpp>
@@ -22,12 +16,16 @@
 #include <bumpshadow/encode/tangent_volume.hpp>
 #include <bumpshadow/factor_cube.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/normal_map.hpp>
 #include <bumpshadow/reference/sampler.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>
 #include <bumpshadow/reference/tangent_shadow.hpp>
 #include <bumpshadow/shader/shader.hpp>
 #include <bumpshadow/texture.hpp>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 // From textures to shadow factors, by the shader snippets and the sampler: what a GPU computes for one light at one
 // texture coordinate.

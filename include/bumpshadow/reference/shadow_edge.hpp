@@ -5,10 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include <glm/ext/vector_float3.hpp>
-
 #include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/shader/shader.hpp>
 #include <bumpshadow/status.hpp>
 

@@ -4,14 +4,11 @@
 #include <cstddef>
 #include <limits>
 
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_float3.hpp>
-#include <glm/ext/vector_int2.hpp>
-
 #include <bumpshadow/choices.hpp>
 #include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/encode/tangent_volume.hpp>
 #include <bumpshadow/finite.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/reference/sampler.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>
 #include <bumpshadow/shader/shader.hpp>

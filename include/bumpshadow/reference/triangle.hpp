@@ -2,14 +2,13 @@
 
 #include <array>
 
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_float3.hpp>
-#include <glm/geometric.hpp>
-
 #include <bumpshadow/encode/quantity.hpp>
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/reference/shadow.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>
 #include <bumpshadow/shader/shader.hpp>
+
+#include <glm/geometric.hpp>
 
 // Shadows where the light is computed at the vertices of a triangle and interpolated over it (shader/vertex.h).
 //

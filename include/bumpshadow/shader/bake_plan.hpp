@@ -6,10 +6,7 @@
 #include <limits>
 #include <span>
 
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-#include <glm/ext/vector_int4.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/cascade.hpp>
 #include <bumpshadow/horizon_map.hpp>

@@ -9,14 +9,11 @@
 #include <limits>
 #include <span>
 
-#include <glm/common.hpp>
-#include <glm/ext/vector_double2.hpp>
-#include <glm/ext/vector_int2.hpp>
-#include <glm/ext/vector_int3.hpp>
-#include <glm/ext/vector_int4.hpp>
-
+#include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/cascade.hpp>
+
+#include <glm/common.hpp>
 
 // Fills the tables that shader/bake.h reads, from what the cascade on the CPU computes with. Part of
 // shader/bake_plan.hpp.

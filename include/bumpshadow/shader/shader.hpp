@@ -1,10 +1,9 @@
 #pragma once
 
+#include <bumpshadow/glm.hpp>
+
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
-#include <glm/ext/vector_float2.hpp>
-#include <glm/ext/vector_float3.hpp>
-#include <glm/ext/vector_float4.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -50,7 +49,6 @@ using glm::vec4;
 #include <bumpshadow/shader/ssbump.h>
 #include <bumpshadow/shader/tangent_volume.h>
 #include <bumpshadow/shader/vertex.h>
-#include <bumpshadow/config.hpp>
 
 #undef BUMPSHADOW_FUNCTION
 
