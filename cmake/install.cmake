@@ -2,6 +2,12 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
+get_target_property(glm_of_this_build glm::glm ALIASED_TARGET)
+if(glm_of_this_build)
+    message(FATAL_ERROR "BUMPSHADOW_INSTALL=ON needs an installed GLM, since the package that it makes finds one: "
+        "glm::glm is a target of this build. Set it to OFF or install GLM.")
+endif()
+
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/bumpshadow)
 
 install(DIRECTORY include/bumpshadow DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
@@ -66,8 +72,8 @@ set(CPACK_SOURCE_PACKAGE_FILE_NAME bumpshadow-${PROJECT_VERSION})
 # What git ignores, and git's own; the folder of the project itself may have any name.
 string(REGEX REPLACE "([][+.*()^$?|\\])" "\\\\\\1" source_dir "${PROJECT_SOURCE_DIR}")
 set(CPACK_SOURCE_IGNORE_FILES)
-foreach(ignored build/ \\.git\(/|$\) \\.cache/ node_modules/ package\(-lock\)?\\.json$ CMakeUserPresets\\.json$
-    compile_commands\\.json$)
+foreach(ignored build/ _CPack_Packages/ [^/]*\\.\(deb|tar\\.gz\)$ \\.git\(/|$\) \\.cache/ node_modules/
+    package\(-lock\)?\\.json$ CMakeUserPresets\\.json$ compile_commands\\.json$)
     list(APPEND CPACK_SOURCE_IGNORE_FILES "^${source_dir}/${ignored}")
 endforeach()
 include(CPack)
