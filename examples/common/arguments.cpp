@@ -19,6 +19,7 @@ namespace {
 
 void parse(CLI::App& app, [[maybe_unused]] int argc, [[maybe_unused]] char** argv) {
 #ifdef _WIN32
+    app.allow_windows_style_options(false);  // /heights.png is a file here, too
     // argv has lost what the code page of the machine lacks; paths of the standard library are made from UTF-8.
     wchar_t** const words = CommandLineToArgvW(GetCommandLineW(), &argc);
     std::vector<std::string> arguments;  // the last one first, which is how CLI11 wants them
