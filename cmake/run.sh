@@ -78,11 +78,12 @@ look_for_shader_tools() {
     has_header GL/glcorearb.h || others="$others libgl-dev"
 }
 
-# What the roads to the library need. Tests that need it are skipped where it is missing.
+# What the roads to the library and its pages need. Tests that need it are skipped where it is missing.
 look_for_consumer_tools() {
     has_tool git || others="$others git"
     has_tool pkg-config || others="$others pkg-config"
     has_tool python3 || others="$others python3"
+    has_tool doxygen || others="$others doxygen"
 }
 
 # What only looks for mistakes.

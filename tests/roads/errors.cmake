@@ -41,10 +41,12 @@ refused("bumpshadow needs GLM without GLM_FORCE_CTOR_INIT where GLM uses SIMD" $
 
 # ---- GLM ----
 
+# No headers but ours, and one that config.hpp asks for.
+file(WRITE "${WORK}/nothing/version" "")
 set(found ${glm_flags})
 set(glm_flags)
 refused("bumpshadow needs GLM 0.9.9.8 or newer: install it (Debian, Ubuntu: libglm-dev) or add its folder with -I"
-    ${umbrella} -std=c++20 -nostdinc)
+    ${umbrella} -std=c++20 -nostdinc "-I${WORK}/nothing" "-DBUMPSHADOW_ASSERT(c)=")
 set(glm_flags ${found})
 # The one that is here, which says that it is the one before the oldest.
 string(REPLACE "|" ";" folders "${GLM_INCLUDE}")
@@ -58,7 +60,13 @@ set(setup "${WORK}/old_glm/glm/detail/setup.hpp")
 file(READ "${setup}" text)
 string(REGEX REPLACE "(define GLM_VERSION[ \t]+)[^\n]*" "\\1997" text "${text}")
 file(WRITE "${setup}" "${text}")
-refused("bumpshadow needs GLM 0.9.9.8 or newer: install a newer one" ${umbrella} -std=c++20 "-I${WORK}/old_glm")
+foreach(header IN LISTS headers)
+    file(WRITE "${WORK}/main.cpp" "#include <${header}>\n")
+    run_well("what ${header} includes" ${COMPILER} "-I${include}" ${glm_flags} -std=c++20 -M "${WORK}/main.cpp")
+    if(output MATCHES "/glm/detail/")
+        refused("bumpshadow needs GLM 0.9.9.8 or newer: install a newer one" ${header} -std=c++20 "-I${WORK}/old_glm")
+    endif()
+endforeach()
 
 # ---- CMake ----
 
@@ -73,6 +81,20 @@ endfunction()
 
 cmake_refuses("no GLM" "bumpshadow needs GLM 0.9.9.8 or newer: install it (Debian, Ubuntu: libglm-dev"
     -S "${SOURCE}" -DCMAKE_DISABLE_FIND_PACKAGE_glm=ON)
+file(WRITE "${WORK}/old_package/glmConfig.cmake" "add_library(glm::glm INTERFACE IMPORTED)\n")
+file(WRITE "${WORK}/old_package/glmConfigVersion.cmake" "set(PACKAGE_VERSION 0.9.9.7)\n")
+cmake_refuses("an old GLM" "or set glm_DIR to the folder of its glmConfig.cmake. ${WORK}/old_package has 0.9.9.7."
+    -S "${SOURCE}" "-Dglm_DIR=${WORK}/old_package")
+cmake_refuses("an old GLM of a consumer" "bumpshadow needs GLM 0.9.9.8 or newer: install it" -S "${SOURCE}/tests/consumer"
+    "-DCMAKE_PREFIX_PATH=${PREFIX}" "-Dglm_DIR=${WORK}/old_package")
+file(WRITE "${WORK}/own_glm/CMakeLists.txt" "cmake_minimum_required(VERSION 3.20)
+project(own_glm LANGUAGES CXX)
+add_library(own_glm INTERFACE)
+add_library(glm::glm ALIAS own_glm)
+set(BUMPSHADOW_INSTALL ON)
+add_subdirectory(\"${SOURCE}\" bumpshadow)\n")
+cmake_refuses("a package that needs a GLM of the same build" "BUMPSHADOW_INSTALL=ON needs an installed GLM"
+    -S "${WORK}/own_glm")
 cmake_refuses("an unknown choice" "BUMPSHADOW_SIMD is \"fast\" but has to be none, vector, xsimd or empty"
     -S "${SOURCE}" -DBUMPSHADOW_SIMD=fast -DBUMPSHADOW_BUILD_TESTS=OFF)
 cmake_refuses("no doctest" "The tests need doctest: install it" -S "${SOURCE}" -DCMAKE_DISABLE_FIND_PACKAGE_doctest=ON)

@@ -11,7 +11,7 @@ run_well("pkg-config --exists" ${PKG_CONFIG} --exists "bumpshadow >= 0.1" "bumps
 run(${PKG_CONFIG} --exists "bumpshadow >= 99")
 expect("99 is not there" NOT code EQUAL 0)
 run_well("pkg-config --print-requires" ${PKG_CONFIG} --print-requires bumpshadow)
-expect("GLM is asked for" output STREQUAL "glm\n")
+expect("GLM is asked for" output STREQUAL "glm >= 0.9.9.8\n")
 
 run_well("pkg-config --cflags --libs" ${PKG_CONFIG} --cflags --libs bumpshadow)
 string(STRIP "${output}" flags)
