@@ -230,6 +230,41 @@ TEST_CASE("light of every length and direction, with every encoding") {
 }
 
 // No encoder takes a max_slope of 0; a program that lets it be set meets one all the same.
+TEST_CASE("along the turn and upwards the factor is continuous, with every encoding") {
+    // Horizons of 20 to 40 degrees, steepest towards +y, where no slice lies.
+    const auto horizons = [](int, int, double turn) {
+        return std::tan((30.0 + 10.0 * std::sin(2.0 * std::numbers::pi * (turn + 0.02))) * degree);
+    };
+    const every_encoding encodings({4, 4}, horizons);
+    constexpr int steps = 4000;
+    for (const tried& t : encodings.all) {
+        CAPTURE(t.name);
+        // The steepest that horizons rise between slices, 0.35 a sixteenth of a turn, times k is 45 a turn, and the
+        // cubic bearing turns at most 1.3 times as fast as the angle; upwards, 8 times the 3 / 4 that a slope over 4
+        // rises.
+        double around = 0.0, upwards = 0.0, least = 1.0, most = 0.0;
+        for (const shadow_edge edge : {shadow_edge{8.0f, 1.0f}, shadow_edge{8.0f, 0.5f}}) {
+            double before = double(t.factor(middle, toward(-1.0 / steps, 28), edge));
+            for (int i = 0; i < steps; ++i) {
+                const double here = double(t.factor(middle, toward(double(i) / steps, 28), edge));
+                around = std::max(around, std::abs(here - before));
+                least = std::min(least, here), most = std::max(most, here);
+                before = here;
+            }
+            before = double(t.factor(middle, toward(0.3, 0), edge));
+            for (int i = 1; i <= steps; ++i) {
+                const double here = double(t.factor(middle, toward(0.3, 90.0 * i / steps), edge));
+                upwards = std::max(upwards, std::abs(here - before));
+                before = here;
+            }
+            CHECK(before == 1.0);
+        }
+        CHECK(around * steps < 60.0);
+        CHECK(upwards * steps / (0.5 * std::numbers::pi) < 8.0 * 1.2);
+        if (t.name.find("traced") == std::string::npos) CHECK(most - least > 0.5);
+    }
+}
+
 TEST_CASE("a max_slope that is next to nothing, and 0") {
     const horizons map({4, 4}, 12, bearing_function::cubic, [](int, int, double) { return 1.0; });
     tangent_volume e;
