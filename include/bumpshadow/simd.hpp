@@ -50,6 +50,7 @@ inline pack multiply_add(pack a, pack b, pack c) { return xsimd::fma(a, b, c); }
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
 #endif
 inline pack whole(pack a) { return xsimd::to_float(xsimd::to_int(a)); }
 inline pack larger(pack a, pack b) { return (xsimd::max)(a, b); }
