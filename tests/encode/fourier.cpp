@@ -165,7 +165,8 @@ TEST_CASE("fourier: a step, and the bound of the coefficients") {
             fourier encoding = with(9);
             REQUIRE(bool(tighten_ranges(some.view(), around, encoding, {})));
             for (int i = 1; i < 9; ++i) {
-                const double x = pi * ((i + 1) / 2) / count;
+                const int k = (i + 1) / 2;
+                const double x = pi * k / count;
                 CHECK(std::abs(double(encoding.ranges[std::size_t(i)].high)) <=
                       double(fourier_bound) * x / std::sin(x) + 1e-6);
                 CHECK(encoding.ranges[std::size_t(i)].low == encoding.ranges[std::size_t(i)].high);
@@ -222,7 +223,8 @@ TEST_CASE("fourier: uneven directions are fitted, as by the normal equations") {
         for (std::size_t m = 0; m < directions.size(); ++m) {
             double terms[9];
             for (int i = 0; i < count; ++i) {
-                const double angle = (i + 1) / 2 * post_angle(directions[m]);
+                const int k = (i + 1) / 2;
+                const double angle = k * post_angle(directions[m]);
                 terms[i] = i % 2 == 0 ? std::cos(angle) : std::sin(angle);
             }
             for (int i = 0; i < count; ++i) {
