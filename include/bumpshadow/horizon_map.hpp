@@ -10,6 +10,7 @@
 #include <bumpshadow/finite.hpp>
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 
 namespace bumpshadow {
@@ -40,16 +41,21 @@ struct horizon_map {
     [[nodiscard]] constexpr float* row(int bearing, int y) const {
         return values.data() + std::size_t(bearing) * slice_step() + std::size_t(y) * row_step();
     }
-    // Floats that `values` has to have.
+    // Floats of a slice that count: from its first one to the last one of its last row.
+    [[nodiscard]] constexpr std::size_t slice_size() const {
+        return saturated_sum(saturated_product(std::size_t(extent.y - 1), row_step()), std::size_t(extent.x));
+    }
+    // Floats that `values` has to have; the largest std::size_t where they are more than it counts.
     [[nodiscard]] constexpr std::size_t required_size() const {
-        return std::size_t(bearings - 1) * slice_step() + std::size_t(extent.y - 1) * row_step() +
-               std::size_t(extent.x);
+        const std::size_t step =
+            slice_stride != 0 ? slice_stride : saturated_product(row_step(), std::size_t(extent.y));
+        return saturated_sum(saturated_product(std::size_t(bearings - 1), step), slice_size());
     }
 };
 
-// Floats of a tightly packed horizon map.
+// Floats of a tightly packed horizon map; the largest std::size_t where they are more than it counts.
 [[nodiscard]] constexpr std::size_t required_size(glm::ivec2 extent, int bearings) {
-    return std::size_t(extent.x) * std::size_t(extent.y) * std::size_t(bearings);
+    return saturated_product(saturated_product(std::size_t(extent.x), std::size_t(extent.y)), std::size_t(bearings));
 }
 
 // Of bake_options::steps, at the most.
@@ -102,8 +108,8 @@ struct bake_options {
         return {error::mismatch, "output bearings", double(out.bearings), double(bearings)};
     if (out.row_step() < std::size_t(extent.x))
         return {error::too_small, "output row_stride", double(out.row_step()), double(extent.x)};
-    if (out.bearings > 1 && out.slice_step() < out.row_step() * std::size_t(extent.y - 1) + std::size_t(extent.x))
-        return {error::too_small, "output slice_stride", double(out.slice_step()), double(out.row_step()) * extent.y};
+    if (out.bearings > 1 && out.slice_step() < out.slice_size())
+        return {error::too_small, "output slice_stride", double(out.slice_step()), double(out.slice_size())};
     if (out.values.size() < out.required_size())
         return {error::too_small, "output size", double(out.values.size()), double(out.required_size())};
     return {};

@@ -15,6 +15,7 @@
 #include <bumpshadow/pixels.hpp>
 #include <bumpshadow/quantize.hpp>
 #include <bumpshadow/shader/shader.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 
 namespace bumpshadow {
@@ -46,9 +47,16 @@ struct normal_map {
     void set(int x, int y, glm::vec3 normal) const {
         for (glm::length_t c = 0; c < 3; ++c) row(int(c), y)[x] = normal[c];
     }
-    // Floats that `values` has to have: 3 width height where tightly packed.
+    // Floats of a component that count: from its first one to the last one of its last row.
+    [[nodiscard]] constexpr std::size_t plane_size() const {
+        return saturated_sum(saturated_product(std::size_t(extent.y - 1), row_step()), std::size_t(extent.x));
+    }
+    // Floats that `values` has to have, 3 width height where tightly packed; the largest std::size_t where they are
+    // more than it counts.
     [[nodiscard]] constexpr std::size_t required_size() const {
-        return 2 * plane_step() + std::size_t(extent.y - 1) * row_step() + std::size_t(extent.x);
+        const std::size_t step =
+            plane_stride != 0 ? plane_stride : saturated_product(row_step(), std::size_t(extent.y));
+        return saturated_sum(saturated_product(2, step), plane_size());
     }
 };
 
@@ -71,9 +79,8 @@ enum class normal_y : unsigned char {
     const std::size_t width = std::size_t(extent.x);
     if (normals.row_step() < width)
         return {error::too_small, "normals row_stride", double(normals.row_step()), double(width)};
-    const std::size_t plane = normals.row_step() * std::size_t(extent.y - 1) + width;
-    if (normals.plane_step() < plane)
-        return {error::too_small, "normals plane_stride", double(normals.plane_step()), double(plane)};
+    if (normals.plane_step() < normals.plane_size())
+        return {error::too_small, "normals plane_stride", double(normals.plane_step()), double(normals.plane_size())};
     if (normals.values.size() < normals.required_size())
         return {error::too_small, "normals size", double(normals.values.size()), double(normals.required_size())};
     return {};
@@ -86,8 +93,8 @@ inline constexpr int band = 16;  // rows an item of an executor
 // body(y) for every row, in bands.
 template <executor Executor, class Body>
 void for_rows(int rows, Executor&& execute, const Body& body) {
-    std::forward<Executor>(execute)(std::size_t((rows + band - 1) / band), [&](std::size_t item) {
-        const int first = int(item) * band, last = (std::min)(first + band, rows);
+    std::forward<Executor>(execute)(std::size_t(part_count(rows, band)), [&](std::size_t item) {
+        const int first = int(item) * band, last = first + (std::min)(band, rows - first);
         for (int y = first; y < last; ++y) body(y);
     });
 }

@@ -4,6 +4,7 @@
 #include <span>
 
 #include <bumpshadow/glm.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 
 namespace bumpshadow {
@@ -25,9 +26,10 @@ struct basic_pixels {
     [[nodiscard]] constexpr Byte* row(int y) const { return bytes.data() + std::size_t(y) * row_step(); }
     // First byte of texel (x, y).
     [[nodiscard]] constexpr Byte* at(int x, int y) const { return row(y) + std::size_t(x) * std::size_t(channels); }
-    // Bytes that `bytes` has to have.
+    // Bytes that `bytes` has to have; the largest std::size_t where they are more than it counts.
     [[nodiscard]] constexpr std::size_t required_size() const {
-        return std::size_t(extent.y - 1) * row_step() + std::size_t(extent.x) * std::size_t(channels);
+        return saturated_sum(saturated_product(std::size_t(extent.y - 1), row_step()),
+                             saturated_product(std::size_t(extent.x), std::size_t(channels)));
     }
     // The same picture to read from.
     constexpr operator basic_pixels<const std::byte>() const { return {bytes, extent, channels, row_stride}; }
@@ -49,7 +51,7 @@ template <class Byte>
     if (picture.channels < fewest)
         return {error::too_small, "picture channels", double(picture.channels), double(fewest)};
     if (picture.channels > 4) return {error::out_of_range, "picture channels", double(picture.channels), 4.0};
-    const std::size_t row = std::size_t(extent.x) * std::size_t(picture.channels);
+    const std::size_t row = saturated_product(std::size_t(extent.x), std::size_t(picture.channels));
     if (picture.row_step() < row)
         return {error::too_small, "picture row_stride", double(picture.row_step()), double(row)};
     if (picture.bytes.size() < picture.required_size())

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <memory_resource>
 #include <new>
@@ -13,6 +14,7 @@
 
 #include <bumpshadow/config.hpp>
 #include <bumpshadow/horizon_map.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 
 namespace bumpshadow {
@@ -20,13 +22,16 @@ namespace bumpshadow {
 // Every array in a scratch block starts on such a boundary: a cache line, and the widest vector.
 inline constexpr std::size_t scratch_alignment = 64;
 
-// Adds up the bytes of a scratch block: one add<T>(count) for each later carve<T>(count), in any order.
+// Adds up the bytes of a scratch block: one add<T>(count) for each later carve<T>(count), in any order. A sum too large
+// for std::size_t becomes the largest there is.
 class scratch_layout {
 public:
-    // Room for an array of `count` values.
+    // Room for an array of count * each values.
     template <class T>
-    constexpr scratch_layout& add(std::size_t count) {
-        bytes_ += (count * sizeof(T) + scratch_alignment - 1) / scratch_alignment * scratch_alignment;
+    constexpr scratch_layout& add(std::size_t count, std::size_t each = 1) {
+        const std::size_t bytes = saturated_product(saturated_product(count, each), sizeof(T));
+        const std::size_t lines = bytes / scratch_alignment + (bytes % scratch_alignment != 0 ? 1 : 0);
+        bytes_ = saturated_sum(bytes_, saturated_product(lines, scratch_alignment));
         return *this;
     }
     // Bytes for everything added, wherever the block starts.
@@ -58,6 +63,9 @@ public:
         } else {
             std::pmr::memory_resource* resource =
                 options.memory != nullptr ? options.memory : std::pmr::get_default_resource();
+            // More than any object may have is not asked for: resources round sizes up.
+            if (bytes > std::size_t((std::numeric_limits<std::ptrdiff_t>::max)()))
+                return {error::out_of_memory, who, double(bytes)};
 #if defined(__cpp_exceptions)
             try {
                 block_ = resource->allocate(bytes, scratch_alignment);

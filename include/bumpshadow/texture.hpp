@@ -6,6 +6,7 @@
 #include <span>
 
 #include <bumpshadow/glm.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 
 namespace bumpshadow {
@@ -44,13 +45,16 @@ struct format_traits {
 // D3D; volume: one 3D image.
 enum class texture_kind : unsigned char { flat, array, cube, volume };
 
-// Extent of a texture's mip level along one axis, in texels: halved, rounded down, at least 1.
-[[nodiscard]] constexpr int mip_extent(int extent, int level) { return (std::max)(1, extent >> level); }
+// Extent of a texture's mip level along one axis, in texels: halved, rounded down, at least 1. level: 0 or more.
+[[nodiscard]] constexpr int mip_extent(int extent, int level) {
+    BUMPSHADOW_ASSERT(level >= 0);
+    return (std::max)(1, extent >> (std::min)(level, 31));
+}
 
-// Levels of the full mip chain of an extent.
+// Levels of the full mip chain of an extent; 1 where it is not positive.
 [[nodiscard]] constexpr int full_mips(glm::ivec2 extent) {
     int levels = 1;
-    while (((std::max)(extent.x, extent.y) >> levels) != 0) ++levels;
+    while (levels < 31 && ((std::max)(extent.x, extent.y) >> levels) > 0) ++levels;
     return levels;
 }
 
@@ -74,30 +78,37 @@ struct texture_layout {
     // Bytes from one row of blocks to the next.
     [[nodiscard]] constexpr std::size_t row_bytes(int level) const {
         const format_traits f = traits_of(format);
-        return std::size_t((mip_extent(extent.x, level) + f.block - 1) / f.block) * std::size_t(f.block_bytes);
+        return saturated_product(std::size_t(part_count(mip_extent(extent.x, level), f.block)),
+                                 std::size_t(f.block_bytes));
     }
     // Bytes of one slice, layer or face of a level.
     [[nodiscard]] constexpr std::size_t slice_bytes(int level) const {
-        const int block = traits_of(format).block;
-        return row_bytes(level) * std::size_t((mip_extent(extent.y, level) + block - 1) / block);
+        return saturated_product(row_bytes(level),
+                                 std::size_t(part_count(mip_extent(extent.y, level), traits_of(format).block)));
     }
     // Bytes of one layer with all its levels.
-    [[nodiscard]] constexpr std::size_t layer_bytes() const {
-        std::size_t bytes = 0;
-        for (int level = 0; level < mips; ++level) bytes += slice_bytes(level) * std::size_t(level_depth(level));
-        return bytes;
+    [[nodiscard]] constexpr std::size_t layer_bytes() const { return bytes_above(mips); }
+    // Bytes of the whole texture. This and the two above are the largest std::size_t where it does not count as far.
+    [[nodiscard]] constexpr std::size_t required_size() const {
+        return saturated_product(layer_bytes(), std::size_t(layers));
     }
-    // Bytes of the whole texture.
-    [[nodiscard]] constexpr std::size_t required_size() const { return layer_bytes() * std::size_t(layers); }
-    // Bytes before slice `slice` of a level of a layer.
+    // Bytes before slice `slice` of a level of a layer, of a texture that passes check().
     [[nodiscard]] constexpr std::size_t offset(int layer, int level, int slice = 0) const {
-        std::size_t bytes = layer_bytes() * std::size_t(layer);
-        for (int above = 0; above < level; ++above) bytes += slice_bytes(above) * std::size_t(level_depth(above));
-        return bytes + slice_bytes(level) * std::size_t(slice);
+        const std::size_t layers_before = layer > 0 ? layer_bytes() * std::size_t(layer) : 0;
+        return layers_before + bytes_above(level) + slice_bytes(level) * std::size_t(slice);
     }
     // Bytes for each texel of a map of extent `texels`, level 0 alone.
     [[nodiscard]] constexpr double bytes_per_texel(glm::ivec2 texels) const {
         return double(slice_bytes(0)) * double(depth) * double(layers) / (double(texels.x) * double(texels.y));
+    }
+
+private:
+    // Bytes of the levels of one layer before this one.
+    [[nodiscard]] constexpr std::size_t bytes_above(int level) const {
+        std::size_t bytes = 0;
+        for (int i = 0; i < level; ++i)
+            bytes = saturated_sum(bytes, saturated_product(slice_bytes(i), std::size_t(level_depth(i))));
+        return bytes;
     }
 };
 

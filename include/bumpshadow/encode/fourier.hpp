@@ -18,6 +18,7 @@
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 #include <bumpshadow/texture.hpp>
 
@@ -152,7 +153,8 @@ inline constexpr int rows_of_item = slice_detail::rows_of_item;
 
 [[nodiscard]] inline std::size_t scratch_bytes(std::size_t directions, std::size_t coefficients, int slots) {
     scratch_layout layout;
-    layout.add<float>(directions * coefficients).add<float>(std::size_t(slots) * (coefficients + 1) * chunk);
+    layout.add<float>(directions, coefficients);
+    layout.add<float>(std::size_t(slots), saturated_product(saturated_sum(coefficients, 1), chunk));
     return layout.bytes();
 }
 
@@ -214,7 +216,7 @@ template <executor Executor, class Visit>
                                       const fourier& encoding, const pack_options& options, Executor&& execute,
                                       const Visit& visit) {
     const std::size_t terms = std::size_t(encoding.coefficients);
-    const std::size_t items = std::size_t((levels[0].extent.y + rows_of_item - 1) / rows_of_item);
+    const std::size_t items = std::size_t(part_count(levels[0].extent.y, rows_of_item));
     const int slots = slot_pool::slots(execute.concurrency(), items);
     bake_options where;
     where.scratch = options.scratch;
@@ -231,12 +233,13 @@ template <executor Executor, class Visit>
     slot_pool pool(slots);
     for (std::size_t level = 0; level < levels.size(); ++level) {
         const horizon_map& slopes = levels[level];
-        execute(std::size_t((slopes.extent.y + rows_of_item - 1) / rows_of_item), [&](std::size_t item) {
+        execute(std::size_t(part_count(slopes.extent.y, rows_of_item)), [&](std::size_t item) {
             const auto lease = pool.acquire();
             float* const coefficients = buffers + std::size_t(lease.index()) * (terms + 1) * chunk;
             float* const work = coefficients + terms * chunk;
             pack_report report;
-            const int first = int(item) * rows_of_item, end = (std::min)(first + rows_of_item, slopes.extent.y);
+            const int first = int(item) * rows_of_item;
+            const int end = first + (std::min)(rows_of_item, slopes.extent.y - first);
             for (int y = first; y < end; ++y)
                 for (int x = 0; x < slopes.extent.x; x += chunk) {
                     const int count = (std::min)(chunk, slopes.extent.x - x);
@@ -258,8 +261,7 @@ template <executor Executor, class Visit>
 // Bytes of scratch for the two functions below, at the most, on an executor of that concurrency.
 [[nodiscard]] inline std::size_t fourier_scratch_size(glm::ivec2 extent, std::size_t directions,
                                                       const fourier& encoding, int concurrency = 1) {
-    const auto items = std::size_t((std::max)(extent.y, 1) + fourier_detail::rows_of_item - 1) /
-                       std::size_t(fourier_detail::rows_of_item);
+    const auto items = std::size_t(part_count(extent.y, fourier_detail::rows_of_item));
     return fourier_detail::scratch_bytes(directions, std::size_t(encoding.coefficients),
                                          slot_pool::slots(concurrency, items));
 }

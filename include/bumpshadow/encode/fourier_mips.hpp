@@ -14,6 +14,7 @@
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 #include <bumpshadow/texture.hpp>
 
@@ -77,9 +78,9 @@ struct series_rows {
 // body(y, slot) for rows, in bands.
 template <executor Executor, class Body>
 void for_rows(int rows, slot_pool& pool, Executor&& execute, const Body& body) {
-    execute(std::size_t((rows + rows_of_item - 1) / rows_of_item), [&](std::size_t item) {
+    execute(std::size_t(part_count(rows, rows_of_item)), [&](std::size_t item) {
         const auto lease = pool.acquire();
-        const int first = int(item) * rows_of_item, end = (std::min)(first + rows_of_item, rows);
+        const int first = int(item) * rows_of_item, end = first + (std::min)(rows_of_item, rows - first);
         for (int y = first; y < end; ++y) body(y, lease.index());
     });
 }
@@ -103,15 +104,15 @@ struct mip_sizes {
 [[nodiscard]] inline std::size_t scratch_bytes(const mip_sizes& s) {
     scratch_layout layout;
     layout.add<std::byte>(s.row_bytes)
-        .add<float>(s.directions * s.terms)
-        .add<float>(s.directions * s.terms)
-        .add<float>(s.held * s.terms);
-    layout.add<std::uint32_t>(s.directions * reduce_detail::bins).add<match_scratch>(std::size_t(s.slots));
+        .add<float>(s.directions, s.terms)
+        .add<float>(s.directions, s.terms)
+        .add<float>(s.held, s.terms);
+    layout.add<std::uint32_t>(s.directions, reduce_detail::bins).add<match_scratch>(std::size_t(s.slots));
     for (int i = 0; i < s.slots; ++i)
         layout.add<reduce_detail::tie>(std::size_t(reduce_detail::bins))
             .add<std::uint16_t>(s.first_level)
             .add<float>((std::max)(s.first_level, std::size_t(s.width)))
-            .add<float>((s.terms + 1) * chunk);
+            .add<float>(saturated_sum(s.terms, 1), chunk);
     return layout.bytes();
 }
 

@@ -13,6 +13,7 @@
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 #include <bumpshadow/texture.hpp>
 
@@ -20,9 +21,11 @@
 
 namespace bumpshadow {
 
-// Extent at 1 / factor; what is left over of an odd extent is spread over all texels.
+// Extent at 1 / factor, at least 1; what is left over of an odd extent is spread over all texels. A factor below 1
+// counts as 1.
 [[nodiscard]] inline GLM_CONSTEXPR glm::ivec2 reduced_extent(glm::ivec2 extent, int factor) {
-    return {(std::max)(1, extent.x / factor), (std::max)(1, extent.y / factor)};
+    const int divisor = (std::max)(1, factor);
+    return {(std::max)(1, extent.x / divisor), (std::max)(1, extent.y / divisor)};
 }
 
 // Mip levels, the map itself included, down to 32 texels along the shorter side: 16 x 16 cannot hold the distributions
@@ -253,7 +256,7 @@ struct mip_scratch {
     scratch_layout layout;
     for (int i = 0; i < slots; ++i)
         layout.add<tie>(std::size_t(bins)).add<std::uint16_t>(required_size(first_level, 1));
-    return layout.add<mip_scratch>(std::size_t(slots)).add<std::uint32_t>(4 * std::size_t(slices) * bins);
+    return layout.add<mip_scratch>(std::size_t(slots)).add<std::uint32_t>(std::size_t(slices), 4 * bins);
 }
 
 // Slopes to stored values, or back, in place.

@@ -16,6 +16,7 @@
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/simd.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 
 // How rows of many directions become rows of a few slices, a band at a time; encode/slices.hpp is what callers use.
@@ -194,14 +195,16 @@ void make_row(const plan& p, int width, int y, const Source& source, float* valu
 }
 
 // Floats from slice to slice of a band.
-[[nodiscard]] constexpr std::size_t slice_step(int width, int rows) { return padded(width) * std::size_t(rows) + 16; }
+[[nodiscard]] constexpr std::size_t slice_step(int width, int rows) {
+    return saturated_sum(saturated_product(padded(width), std::size_t(rows)), 16);
+}
 
 [[nodiscard]] inline std::size_t scratch_bytes(int width, std::size_t directions, int slices, int rows, int slots) {
     scratch_layout layout;
     layout.add<contribution>((std::max)(directions, std::size_t(slices))).add<column>(std::size_t(slices));
-    layout.add<double>(3 * std::size_t(slices)).add<glm::dvec2>(std::size_t(slices));
+    layout.add<double>(3, std::size_t(slices)).add<glm::dvec2>(std::size_t(slices));
     for (int i = 0; i < slots; ++i)
-        layout.add<float>(std::size_t(slices) * slice_step(width, rows)).add<float>(work_size(directions, slices));
+        layout.add<float>(std::size_t(slices), slice_step(width, rows)).add<float>(work_size(directions, slices));
     return layout.add<float*>(2 * std::size_t(slots)).bytes();
 }
 
@@ -211,7 +214,7 @@ struct request {
     slice_set slices;
     int rows;  // of a band
 
-    [[nodiscard]] std::size_t items() const { return std::size_t((extent.y + rows_of_item - 1) / rows_of_item); }
+    [[nodiscard]] std::size_t items() const { return std::size_t(part_count(extent.y, rows_of_item)); }
     [[nodiscard]] std::size_t bytes(int concurrency) const {
         return scratch_bytes(extent.x, sources, slices.count, rows, slot_pool::slots(concurrency, items()));
     }
@@ -264,7 +267,7 @@ template <class MakePlan, class Source, executor Executor, class Sink>
         const auto lease = pool.acquire();
         float* const values = buffers[2 * lease.index()];
         pack_report seen;
-        const int first = int(item) * rows_of_item, end = (std::min)(first + rows_of_item, height);
+        const int first = int(item) * rows_of_item, end = first + (std::min)(rows_of_item, height - first);
         for (int y = first; y < end; y += rows) {
             const int here = (std::min)(rows, end - y);
             for (int r = 0; r < here; ++r)

@@ -9,6 +9,7 @@
 #include <bumpshadow/encode/quantity.hpp>
 #include <bumpshadow/encode/slice_fit.hpp>
 #include <bumpshadow/simd.hpp>
+#include <bumpshadow/sizes.hpp>
 
 // From the least squares of stored values towards the least mean error of the elevation.
 //
@@ -28,7 +29,7 @@ enum slice_row { diagonal, pull, change, beside, rows_of_slice };
 
 // Floats of work for a chunk.
 [[nodiscard]] constexpr std::size_t reweight_size(std::size_t directions, std::size_t slices) {
-    return (directions + rows_of_slice * slices) * work_step;
+    return saturated_product(saturated_sum(directions, saturated_product(rows_of_slice, slices)), work_step);
 }
 
 // change(bits) of the numbers in a pack.

@@ -16,6 +16,7 @@
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/simd.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 #include <bumpshadow/texture.hpp>
 
@@ -98,8 +99,7 @@ namespace bumpshadow {
 // 600 a direction for each thread.
 [[nodiscard]] inline std::size_t slice_scratch_size(glm::ivec2 extent, std::size_t directions, int slices,
                                                     int concurrency = 1) {
-    const auto items =
-        std::size_t((std::max)(extent.y, 1) + slice_detail::rows_of_item - 1) / std::size_t(slice_detail::rows_of_item);
+    const auto items = std::size_t(part_count(extent.y, slice_detail::rows_of_item));
     return slice_detail::scratch_bytes(extent.x, directions, slices, 4, slot_pool::slots(concurrency, items));
 }
 

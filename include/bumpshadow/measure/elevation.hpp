@@ -62,7 +62,7 @@ template <class Found>
 
 // Bytes of scratch that elevation_error takes.
 [[nodiscard]] constexpr std::size_t elevation_scratch_size(std::size_t texels, std::size_t bearings) {
-    return scratch_layout().add<double>(texels * bearings).bytes();
+    return scratch_layout().add<double>(texels, bearings).bytes();
 }
 
 // Error of baked horizons against exact ones at some texels, as angles of elevation, in degrees.

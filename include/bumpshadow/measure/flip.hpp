@@ -14,6 +14,7 @@
 #include <bumpshadow/pixels.hpp>
 #include <bumpshadow/reference/lighting.hpp>
 #include <bumpshadow/scratch.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 
 #include <glm/common.hpp>
@@ -100,7 +101,7 @@ enum line : int { color_0, color_1, color_2, edge_x, edge_y, point_x, point_y, l
     return (std::size_t(width) + unit - 1) / unit * unit;
 }
 
-[[nodiscard]] constexpr std::size_t bands_of(glm::ivec2 extent) { return std::size_t((extent.y + band - 1) / band); }
+[[nodiscard]] constexpr std::size_t bands_of(glm::ivec2 extent) { return std::size_t(part_count(extent.y, band)); }
 
 // Also for numbers that flip refuses.
 [[nodiscard]] inline int radius_of(float pixels_per_degree) {
@@ -117,9 +118,9 @@ struct work {
     template <class Add>
     void for_arrays(int width, int radius, const Add& add) {
         const std::size_t row = row_floats(width), margins = 2 * std::size_t(radius);
-        add(rows, 3 * (row + margins));
-        add(planes, 2 * std::size_t(flip_detail::planes) * (std::size_t(band) + margins) * row);
-        add(columns, 2 * std::size_t(lines) * row);
+        add(rows, saturated_product(3, saturated_sum(row, margins)));
+        add(planes, saturated_product(2 * std::size_t(flip_detail::planes) * (std::size_t(band) + margins), row));
+        add(columns, saturated_product(2 * std::size_t(lines), row));
     }
 };
 
@@ -251,7 +252,7 @@ template <class Truth, class Result, class Executor>
     execute(bands, [&](std::size_t item) {
         const auto lease = pool.acquire();
         const work& w = works[lease.index()];
-        const int first = int(item) * band, end = (std::min)(first + band, extent.y);
+        const int first = int(item) * band, end = first + (std::min)(band, extent.y - first);
         const int count = int(row_floats(extent.x));
         const auto row = std::size_t(count);
         float* const second_planes = w.planes + std::size_t(planes) * row * std::size_t(band + 2 * t.filter.radius);

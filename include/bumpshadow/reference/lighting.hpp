@@ -14,6 +14,7 @@
 #include <bumpshadow/pixels.hpp>
 #include <bumpshadow/quantize.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 
 #include <glm/geometric.hpp>
@@ -98,9 +99,10 @@ struct rgb_image {
     }
     // First value of row y.
     [[nodiscard]] constexpr float* row(int y) const { return values.data() + std::size_t(y) * row_step(); }
-    // Floats that `values` has to have.
+    // Floats that `values` has to have; the largest std::size_t where they are more than it counts.
     [[nodiscard]] constexpr std::size_t required_size() const {
-        return std::size_t(extent.y - 1) * row_step() + 3 * std::size_t(extent.x);
+        return saturated_sum(saturated_product(std::size_t(extent.y - 1), row_step()),
+                             saturated_product(3, std::size_t(extent.x)));
     }
 };
 
@@ -108,7 +110,7 @@ struct rgb_image {
 [[nodiscard]] inline status check(const rgb_image& image) {
     if (image.extent.x <= 0) return {error::not_positive, "image extent.x", double(image.extent.x)};
     if (image.extent.y <= 0) return {error::not_positive, "image extent.y", double(image.extent.y)};
-    if (image.row_step() < 3 * std::size_t(image.extent.x))
+    if (image.row_step() < saturated_product(3, std::size_t(image.extent.x)))
         return {error::too_small, "image row_stride", double(image.row_step()), 3.0 * image.extent.x};
     if (image.values.size() < image.required_size())
         return {error::too_small, "image size", double(image.values.size()), double(image.required_size())};

@@ -18,6 +18,7 @@
 #include <bumpshadow/reference/lighting.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>
 #include <bumpshadow/shader/shader.hpp>
+#include <bumpshadow/sizes.hpp>
 #include <bumpshadow/status.hpp>
 
 #include <glm/common.hpp>
@@ -337,9 +338,9 @@ template <class Shadow, class Surface, executor Executor = serial>
         if (status s = shadow.check(); !s) return s;
     const shade_detail::pass<Shadow, Surface> pass(options, shadow, surface, out);
     constexpr int band = shade_detail::band;
-    std::forward<Executor>(execute)(std::size_t((out.extent.y + band - 1) / band), [&](std::size_t item) {
+    std::forward<Executor>(execute)(std::size_t(part_count(out.extent.y, band)), [&](std::size_t item) {
         const int first = int(item) * band;
-        pass.rows(first, (std::min)(first + band, out.extent.y));
+        pass.rows(first, first + (std::min)(band, out.extent.y - first));
     });
     return {};
 }

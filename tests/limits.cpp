@@ -1,0 +1,201 @@
+// The ends of what functions take: sizes that would wrap, numbers whose squares overflow or vanish, counts of 0.
+
+#include <array>
+#include <climits>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory_resource>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include <bumpshadow/encode/emboss.hpp>
+#include <bumpshadow/encode/fourier.hpp>
+#include <bumpshadow/encode/fourier_mips.hpp>
+#include <bumpshadow/encode/reduce.hpp>
+#include <bumpshadow/encode/slices.hpp>
+#include <bumpshadow/encode/ssbump.hpp>
+#include <bumpshadow/encode/tangent_volume.hpp>
+#include <bumpshadow/horizon_map.hpp>
+#include <bumpshadow/measure/elevation.hpp>
+#include <bumpshadow/measure/figures.hpp>
+#include <bumpshadow/measure/flip.hpp>
+#include <bumpshadow/normal_map.hpp>
+#include <bumpshadow/pixels.hpp>
+#include <bumpshadow/plan/tiles.hpp>
+#include <bumpshadow/reference/lighting.hpp>
+#include <bumpshadow/reference/pixel_shadow.hpp>
+#include <bumpshadow/reference/reflection.hpp>
+#include <bumpshadow/reference/shadow.hpp>
+#include <bumpshadow/reference/triangle.hpp>
+#include <bumpshadow/scratch.hpp>
+#include <bumpshadow/shader/shader.hpp>
+#include <bumpshadow/sizes.hpp>
+#include <bumpshadow/texture.hpp>
+
+using namespace bumpshadow;
+
+namespace {
+
+constexpr std::size_t most = (std::numeric_limits<std::size_t>::max)();
+constexpr float infinity = std::numeric_limits<float>::infinity(),
+                not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float largest = (std::numeric_limits<float>::max)();
+
+void refused(const status& s, error code, std::string_view argument) {
+    CAPTURE(s.message().c_str());
+    CHECK(s.code() == code);
+    CHECK(s.argument() == argument);
+}
+
+}  // namespace
+
+TEST_CASE("sums and products that a size does not hold are the largest one") {
+    CHECK(saturated_sum(most - 3, 3) == most);
+    CHECK(saturated_sum(most - 3, 4) == most);
+    CHECK(saturated_product(0, most) == 0);
+    CHECK(saturated_product(most, 0) == 0);
+    CHECK(saturated_product(most, 1) == most);
+    CHECK(saturated_product(most / 3, 3) == most);  // 2^32 - 1 and 2^64 - 1 are multiples of 3
+    CHECK(saturated_product(most / 3 + 1, 3) == most);
+    constexpr std::size_t root = std::size_t(1) << (std::numeric_limits<std::size_t>::digits / 2);
+    CHECK(saturated_product(root, root) == most);
+    CHECK(saturated_product(root - 1, root + 1) == most);  // root^2 - 1
+    CHECK(saturated_product(root - 1, root - 1) == most - 2 * (root - 1));
+    CHECK(part_count(0, 16) == 0);
+    CHECK(part_count(-3, 16) == 0);
+    CHECK(part_count(16, 16) == 1);
+    CHECK(part_count(17, 16) == 2);
+    CHECK(part_count(INT_MAX, 16) == 1 << 27);
+    CHECK(part_count(INT_MAX, INT_MAX) == 1);
+}
+
+TEST_CASE("views whose sizes would wrap are refused by name") {
+    constexpr std::size_t half = most / 2 + 1;  // twice it is 0
+    constexpr int edge = 1 << 30;
+    const texture_layout wide{.format = texel_format::rgba32f, .extent = {edge, edge}};
+    CHECK(wide.required_size() == most);
+    refused(check(const_texture{{}, wide}), error::too_small, "texture size");
+    const texture_layout deep{
+        .format = texel_format::rg8, .kind = texture_kind::volume, .extent = {edge, edge}, .depth = 8};
+    CHECK(deep.required_size() == most);
+    refused(check(const_texture{{}, deep}), error::too_small, "texture size");
+    const texture_layout many{
+        .format = texel_format::r8, .kind = texture_kind::array, .extent = {edge, edge}, .layers = 16, .mips = 31};
+    refused(check(const_texture{{}, many}), error::too_small, "texture size");
+
+    std::vector<float> floats(45);
+    std::vector<std::byte> bytes(60);
+    constexpr glm::ivec2 extent{5, 3};
+    const auto both = [&](const horizon_map& map, std::string_view output, std::string_view input) {
+        CHECK(map.required_size() == most);
+        refused(check_output(map, extent, std::size_t(map.bearings)), error::too_small, output);
+        refused(check_horizons(map), error::too_small, input);
+    };
+    both({floats, extent, 1, half}, "output size", "horizon map size");
+    both({floats, extent, 3, 0, half}, "output size", "horizon map size");
+    // Tightly packed slices of rows that are not: 3 half is half again.
+    both({floats, extent, 2, half}, "output slice_stride", "horizon map size");
+    CHECK(required_size({INT_MAX, INT_MAX}, INT_MAX) == most);
+
+    refused(check(const_pixels{bytes, extent, 4, half}, extent, 3), error::too_small, "picture size");
+    refused(check(rgb_image{floats, extent, half}), error::too_small, "image size");
+    refused(check(normal_map{floats, extent, 0, half}, extent), error::too_small, "normals size");
+    refused(check(normal_map{floats, extent, half}, extent), error::too_small, "normals plane_stride");
+
+    // Three rows of five.
+    CHECK(bool(check(const_pixels{bytes, extent, 4}, extent, 3)));
+    CHECK(bool(check(rgb_image{floats, extent})));
+    CHECK(bool(check(normal_map{floats, extent}, extent)));
+    CHECK(bool(check_output({floats, extent, 3}, extent, 3)));
+    if constexpr (sizeof(std::size_t) == 8) {
+        refused(check(const_pixels{bytes, {INT_MAX, INT_MAX}, 4}, {INT_MAX, INT_MAX}, 3), error::too_small,
+                "picture size");
+        // 4 (2^31 - 1)^2 = 2^64 - 2^34 + 4 is the largest that is counted.
+        const texture_layout longest{.format = texel_format::rgba8, .extent = {INT_MAX, INT_MAX}};
+        CHECK(longest.required_size() == most - ((std::size_t(1) << 34) - 5));
+        CHECK(texture_layout{.format = texel_format::bc4, .extent = {INT_MAX, INT_MAX}}.required_size() ==
+              std::size_t(1) << 61);
+    }
+}
+
+TEST_CASE("mips beyond the chain are texels") {
+    CHECK(mip_extent(8, 3) == 1);
+    CHECK(mip_extent(8, 40) == 1);
+    CHECK(mip_extent(INT_MAX, 30) == 1);
+    CHECK(mip_extent(INT_MAX, INT_MAX) == 1);
+    const texture_layout layout{.extent = {8, 8}, .mips = 40};
+    CHECK(layout.required_size() == 64 + 16 + 4 + 1 + 36);
+    refused(check(const_texture{{}, layout}), error::out_of_range, "texture mips");
+    CHECK(full_mips({INT_MAX, 1}) == 31);
+    CHECK(full_mips({-5, -7}) == 1);
+}
+
+namespace {
+
+// Asked for nothing, and has nothing.
+struct counting_nothing : std::pmr::memory_resource {
+    int calls = 0;
+
+private:
+    void* do_allocate(std::size_t, std::size_t) override {
+        ++calls;
+        return nullptr;
+    }
+    void do_deallocate(void*, std::size_t, std::size_t) override {}
+    [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+};
+
+}  // namespace
+
+TEST_CASE("scratch of huge extents is not less than that of large ones") {
+    const fourier nine{.coefficients = 9, .scale = {.max_slope = 2.0f}};
+    // Four threads have four items at these heights; the size does not depend on more.
+    CHECK(slice_scratch_size({8, INT_MAX}, 32, 8, 4) == slice_scratch_size({8, 1000}, 32, 8, 4));
+    CHECK(fourier_scratch_size({8, INT_MAX}, 32, nine, 4) == fourier_scratch_size({8, 1000}, 32, nine, 4));
+    CHECK(flip_scratch_size({8, INT_MAX}, {}, 4) == flip_scratch_size({8, 1000}, {}, 4));
+    CHECK(slice_scratch_size({8, 16}, 32, 8, 4) == slice_scratch_size({8, 16}, 32, 8, 1));
+    if constexpr (sizeof(std::size_t) == 8) {
+        // 8 slices of 4 rows of 2^31 floats.
+        CHECK(slice_scratch_size({INT_MAX, INT_MAX}, 32, 8) > std::size_t(32) << 33);
+        // 9 floats for each of the 2^60 texels of level 1 are more than 2^64 bytes.
+        CHECK(fourier_mip_scratch_size({INT_MAX, INT_MAX}, 32, nine) == most);
+    }
+    CHECK(slice_scratch_size({8, 8}, most / 2, 8) == most);
+    CHECK(fourier_scratch_size({8, 8}, most / 2, nine) == most);
+    CHECK(elevation_scratch_size(most, most) == most);
+
+    CHECK(scratch_layout().add<char>(1).bytes() == 2 * scratch_alignment);
+    CHECK(scratch_layout().add<double>(8, 2).bytes() == 3 * scratch_alignment);
+    CHECK(scratch_layout().add<double>(most / 4).bytes() == most);
+    CHECK(scratch_layout().add<char>(most).bytes() == most);
+    CHECK(scratch_layout().add<char>(most / 2).add<char>(most / 2).add<char>(most / 2).bytes() == most);
+    counting_nothing memory;
+    bake_options options;
+    options.memory = &memory;
+    refused(scratch_block().allocate(options, most, "the test"), error::out_of_memory, "the test");
+    CHECK(memory.calls == 0);
+}
+
+TEST_CASE("tiles larger than a map, and counts of 0") {
+    std::vector<float> slopes(20);
+    for (std::size_t i = 0; i < slopes.size(); ++i) slopes[i] = float(i);
+    const horizon_map map{slopes, {5, 4}, 1};
+    for (const int side : {5, 1 << 30, INT_MAX - 1, INT_MAX})
+        for (const edge_mode edge : {edge_mode::repeat, edge_mode::clamp, edge_mode::mirror, edge_mode::open}) {
+            CAPTURE(side);
+            std::array<float, 2> out{-7.0f, -7.0f};
+            CHECK(bool(tile_horizons(map, edge, side, out)));
+            CHECK(out == std::array<float, 2>{19.0f, -7.0f});
+        }
+    CHECK(tile_count({INT_MAX, 3}, 2) == glm::ivec2(1 << 30, 2));
+    CHECK(tile_count({5, 4}, INT_MAX) == glm::ivec2(1, 1));
+    for (const int none : {0, -1, INT_MIN}) {
+        CHECK(tile_count({5, 4}, none) == glm::ivec2(5, 4));
+        CHECK(reduced_extent({5, 4}, none) == glm::ivec2(5, 4));
+        refused(tile_horizons(map, edge_mode::clamp, none, slopes), error::not_positive, "side of a tile");
+    }
+}
