@@ -199,3 +199,39 @@ TEST_CASE("tiles larger than a map, and counts of 0") {
         refused(tile_horizons(map, edge_mode::clamp, none, slopes), error::not_positive, "side of a tile");
     }
 }
+
+TEST_CASE("derivatives: the ends of max_slope") {
+    std::array<float, 3> values{};
+    const normal_map normals{values, {1, 1}};
+    std::array<std::byte, 2> bytes{std::byte(255), std::byte(128)};
+    const pixels picture{bytes, {1, 1}, 2};
+    const auto of = [](float slope) { return normal_encoding{normal_form::derivatives, normal_y::down, slope}; };
+    for (const float slope : {1e-39f, 1e-19f, 2e19f, largest}) {
+        CAPTURE(slope);
+        refused(encode_normals(normals, of(slope), picture), error::out_of_range, "max_slope");
+        refused(decode_normals(picture, of(slope), normals), error::out_of_range, "max_slope");
+        CHECK(bool(check(normal_encoding{normal_form::unit, normal_y::down, slope})));
+    }
+    // The slopes are max_slope and 1/255 of it.
+    REQUIRE(bool(decode_normals(picture, of(1e18f), normals)));
+    CHECK(values[0] == doctest::Approx(-1.0 / std::sqrt(1.0 + 1.0 / 65025.0)));
+    CHECK(values[1] == doctest::Approx(-1.0 / 255.0).epsilon(1e-4));
+    CHECK(values[2] == doctest::Approx(1e-18).epsilon(1e-4));
+    REQUIRE(bool(decode_normals(picture, of(1e-18f), normals)));
+    CHECK(values[0] == doctest::Approx(-1e-18));
+    CHECK(values[2] == 1.0f);
+
+    const auto stored = [&](float slope, glm::vec3 normal) {
+        normals.set(0, 0, normal);
+        REQUIRE(bool(encode_normals(normals, of(slope), picture)));
+        return glm::ivec2(std::to_integer<int>(bytes[0]), std::to_integer<int>(bytes[1]));
+    };
+    for (const float slope : {1e-18f, 1.0f, 1e18f}) {
+        CAPTURE(slope);
+        CHECK(stored(slope, {0.0f, 0.0f, 1.0f}) == glm::ivec2(128));
+        CHECK(stored(slope, glm::vec3(0.0f)) == glm::ivec2(128));
+        // In the surface: the slope along the axis is infinite, the other one 0.
+        CHECK(stored(slope, {0.0f, 1.0f, 0.0f}) == glm::ivec2(128, 0));
+        CHECK(stored(slope, {-1.0f, 0.0f, 0.0f}) == glm::ivec2(255, 128));
+    }
+}

@@ -203,14 +203,26 @@ enum class normal_form : unsigned char {
 struct normal_encoding {
     normal_form form = normal_form::unit;  // what the channels hold
     normal_y y = normal_y::down;           // which way their y points
-    float max_slope = 1.0f;  // derivatives: the steepest (rise over run) along an axis that is stored; beyond, clamped
+    // Derivatives: the steepest (rise over run) along an axis that is stored; beyond, clamped.
+    // smallest_normal_slope to largest_normal_slope.
+    float max_slope = 1.0f;
 };
+
+// The slope of a normal in the surface, over a much smaller one, would overflow.
+inline constexpr float smallest_normal_slope = 1e-18f;
+// The square of a much larger one would overflow.
+inline constexpr float largest_normal_slope = 1e18f;
 
 // Checks max_slope.
 [[nodiscard]] inline status check(const normal_encoding& encoding) {
-    if (encoding.form == normal_form::derivatives && !(encoding.max_slope > 0.0f))
-        return {error::not_positive, "max_slope", double(encoding.max_slope)};
-    if (!is_finite(encoding.max_slope)) return {error::not_finite, "max_slope", double(encoding.max_slope)};
+    const float slope = encoding.max_slope;
+    const bool used = encoding.form == normal_form::derivatives;
+    if (used && !(slope > 0.0f)) return {error::not_positive, "max_slope", double(slope)};
+    if (!is_finite(slope)) return {error::not_finite, "max_slope", double(slope)};
+    if (used && slope < smallest_normal_slope)
+        return {error::out_of_range, "max_slope", double(slope), double(smallest_normal_slope)};
+    if (used && slope > largest_normal_slope)
+        return {error::out_of_range, "max_slope", double(slope), double(largest_normal_slope)};
     return {};
 }
 

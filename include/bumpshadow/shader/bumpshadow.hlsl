@@ -349,7 +349,8 @@ float3 bumpshadow_normal(float3 stored, float y) {
 }
 
 // Partial-derivative form: stored are dz/dx and dz/dy of the surface, over max_slope, from [-1, 1] to [0, 1]. Needs two
-// channels, and derivatives of several maps may be added. Steeper slopes are not stored.
+// channels, and derivatives of several maps may be added. Steeper slopes are not stored. max_slope: up to 1e18, whose
+// square does not overflow.
 float3 bumpshadow_normal_of_derivatives(float2 stored, float max_slope, float y) {
     float3 normal = float3(max_slope * (1.0 - 2.0 * stored.x), y * max_slope * (1.0 - 2.0 * stored.y), 1.0);
     return normal * rsqrt(dot(normal, normal));

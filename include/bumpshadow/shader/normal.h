@@ -10,7 +10,8 @@ BUMPSHADOW_FUNCTION vec3 bumpshadow_normal(vec3 stored, float y) {
 }
 
 // Partial-derivative form: stored are dz/dx and dz/dy of the surface, over max_slope, from [-1, 1] to [0, 1]. Needs two
-// channels, and derivatives of several maps may be added. Steeper slopes are not stored.
+// channels, and derivatives of several maps may be added. Steeper slopes are not stored. max_slope: up to 1e18, whose
+// square does not overflow.
 BUMPSHADOW_FUNCTION vec3 bumpshadow_normal_of_derivatives(vec2 stored, float max_slope, float y) {
     vec3 normal = vec3(max_slope * (1.0f - 2.0f * stored.x), y * max_slope * (1.0f - 2.0f * stored.y), 1.0f);
     return normal * inversesqrt(dot(normal, normal));
