@@ -235,3 +235,37 @@ TEST_CASE("derivatives: the ends of max_slope") {
         CHECK(stored(slope, {-1.0f, 0.0f, 0.0f}) == glm::ivec2(255, 128));
     }
 }
+
+TEST_CASE("snippets: lengths whose squares neither overflow nor vanish, and what lies beyond") {
+    using namespace shader;
+    for (const float length : {1.01e-15f, 1e-10f, 1.0f, 1e10f, 1e18f, 1e19f}) {
+        CAPTURE(length);
+        CHECK(bumpshadow_emboss_shift({0.6f * length, -0.8f * length, 0.0f}, {0.5f, 0.25f}).x ==
+              doctest::Approx(0.3).epsilon(1e-5));
+        const glm::vec3 direction = bumpshadow_vertex_direction({0.6f * length, -0.8f * length, 0.0f}, 4.0f);
+        CHECK(direction.x == doctest::Approx(0.6).epsilon(1e-5));
+        CHECK(direction.y == doctest::Approx(-0.8).epsilon(1e-5));
+        CHECK(bumpshadow_vertex_direction_sine({0.0f, length, 0.0f}).y == doctest::Approx(1.0).epsilon(1e-5));
+    }
+    CHECK(bumpshadow_emboss_shift({1e-16f, 0.0f, 0.0f}, {1.0f, 1.0f}).x == doctest::Approx(0.1));
+    CHECK(bumpshadow_vertex_direction({1e-16f, 0.0f, 0.0f}, 4.0f).x == doctest::Approx(0.1));
+    CHECK(bumpshadow_emboss_shift({1e20f, 0.0f, 0.0f}, {1.0f, 1.0f}).x == 0.0f);
+    CHECK(bumpshadow_vertex_direction({1e20f, 0.0f, 0.0f}, 4.0f).x == 0.0f);
+
+    const glm::vec3 up(0.0f, 0.0f, 1.0f);
+    for (const float size : {1e-3f, 1.0f, 1e15f}) {
+        CAPTURE(size);
+        const glm::vec3 white(size), bright(1e6f);
+        CHECK(bumpshadow_ssbump_normal(white).z == doctest::Approx(1.0));
+        CHECK(bumpshadow_ssbump_world_normal(white, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, up).x ==
+              doctest::Approx(1.0 / std::sqrt(3.0)));
+        CHECK(bumpshadow_normal_lightmaps(size * up, bright, bright, bright).x == doctest::Approx(1e6));
+        CHECK(bumpshadow_ssbump_lightmaps(white, bright, bright, bright).x == doctest::Approx(3e6 * double(size)));
+        CHECK(bumpshadow_reflection(white, up) == glm::vec3(-size, -size, size));
+        const glm::vec3 weights = bumpshadow_ssbump_weights(size * up);
+        CHECK(bumpshadow_ssbump_light(white, weights) ==
+              doctest::Approx(std::sqrt(3.0) * double(size) * double(size)).epsilon(1e-5));
+    }
+    CHECK(bumpshadow_ssbump_normal(glm::vec3(1e-5f)) == up);
+    CHECK(bumpshadow_normal_of_derivatives({0.0f, 0.5f}, 1e18f, 1.0f).x == doctest::Approx(1.0));
+}

@@ -157,9 +157,9 @@ float bumpshadow_bearing_diamond(float2 v) {
 // 0.5 is 128.
 
 // What is added to the texture coordinates of the inverse height map, so that sides which face the light are
-// brightened. light: towards the light in tangent space, any length; from a vertex for a light that is near, and then
-// interpolated. amount: the shift of a light at the horizon, in texture coordinates (texels over extent). 0 for the
-// zero vector.
+// brightened. light: towards the light in tangent space, of any length whose square neither overflows nor vanishes, 1e-15
+// to 1e19 (beyond, the shift is too small, down to 0); from a vertex for a light that is near, and then interpolated.
+// amount: the shift of a light at the horizon, in texture coordinates (texels over extent). 0 for the zero vector.
 float2 bumpshadow_emboss_shift(float3 light, float2 amount) {
     float inverse = rsqrt(max(dot(light, light), 1e-30));
     return float2(light.x * inverse * amount.x, light.y * inverse * amount.y);
@@ -388,7 +388,7 @@ float bumpshadow_shadow_fade(float factor, float distance, float start, float en
 }
 
 // Place i of taps x taps of a pixel that covers many texels, row by row: from its middle, in sides of the pixel. The mean
-// of their factors is the share of the pixel that is lit. Both are whole numbers, i below taps * taps.
+// of their factors is the share of the pixel that is lit. Both are whole numbers, taps 1 to 1024, i below taps * taps.
 float2 bumpshadow_pixel_place(float i, float taps) {
     float row = floor((i + 0.5) / taps);
     return float2((i - row * taps + 0.5) / taps - 0.5, (row + 0.5) / taps - 0.5);
@@ -489,7 +489,8 @@ float bumpshadow_overlapping_horizon(float4 values, float place) {
 // surface normal (Ols 2010; Green 2007, Efficient Self-Shadowed Radiosity Normal Mapping). In tangent space they are
 //   red (sqrt(2/3), 0, 1/sqrt(3)), green (-1/sqrt(6), 1/sqrt(2), 1/sqrt(3)), blue (-1/sqrt(6), -1/sqrt(2), 1/sqrt(3)).
 // masks: what the texture holds. Where the y of the map and that of the tangent space point opposite ways, pass the
-// masks through bumpshadow_ssbump_other_hand first. All functions are finite for every input that is.
+// masks through bumpshadow_ssbump_other_hand first. All functions are finite for masks, vectors and lights of up to 1e15
+// and lightmaps of up to 1e6; where squares overflow they give the zero vector or what is not a number.
 
 // Left-handed (y-down) masks to right-handed (y-up) ones and back: green and blue swapped, which is the same as
 // swapping the last two vectors of the basis. Doing both undoes it.
@@ -510,7 +511,8 @@ float3 bumpshadow_ssbump_project(float3 v) {
     return float3(0.81649658 * v.x + up, back + side, back - side);
 }
 
-// Unit normal: of the surface for masks without occlusion, else bent towards where it is open. Black gives straight up.
+// Unit normal: of the surface for masks without occlusion, else bent towards where it is open. Black, and whatever is
+// shorter than 1e-4, gives straight up.
 float3 bumpshadow_ssbump_normal(float3 masks) {
     float3 sum = bumpshadow_ssbump_sum(masks);
     float square = dot(sum, sum);
@@ -534,7 +536,7 @@ float3 bumpshadow_ssbump_world_blue(float3 tangent, float3 bitangent, float3 nor
 }
 
 // Straight to a unit normal in the world; red, green, blue: from the three functions above. Black gives the zero
-// vector.
+// vector, and masks shorter than 1e-10 a shorter one.
 float3 bumpshadow_ssbump_world_normal(float3 masks, float3 red, float3 green, float3 blue) {
     float3 sum = masks.x * red + masks.y * green + masks.z * blue;
     return sum * rsqrt(max(dot(sum, sum), 1e-20));
@@ -560,7 +562,7 @@ float3 bumpshadow_ssbump_lightmaps(float3 masks, float3 red, float3 green, float
 }
 
 // The same lightmaps with an ordinary normal map (McTaggart 2004, Half-Life 2 / Valve Source Shading): weights are the
-// squares of the clamped dots, over their sum.
+// squares of the clamped dots, over their sum. A normal of any length from 1e-10 to 1e15.
 float3 bumpshadow_normal_lightmaps(float3 normal, float3 red, float3 green, float3 blue) {
     float3 dots = max(bumpshadow_ssbump_project(normal), 0.0);
     float3 squares = dots * dots;
@@ -663,6 +665,7 @@ float2 bumpshadow_vertex_bearing_diamond(float3 light, float most) {
 }
 
 // Direction (xy, of length 1; 0 straight up, so that such a vertex leaves the direction to the others) and slope (z).
+// Of length 1 while the square of the light's xy neither overflows nor vanishes, from 1e-15 to 1e19; beyond, shorter.
 float3 bumpshadow_vertex_direction(float3 light, float most) {
     float inverse = rsqrt(max(light.x * light.x + light.y * light.y, 1e-30));
     return float3(light.x * inverse, light.y * inverse, bumpshadow_vertex_slope(light, most));

@@ -3,9 +3,9 @@
 // 0.5 is 128.
 
 // What is added to the texture coordinates of the inverse height map, so that sides which face the light are
-// brightened. light: towards the light in tangent space, any length; from a vertex for a light that is near, and then
-// interpolated. amount: the shift of a light at the horizon, in texture coordinates (texels over extent). 0 for the
-// zero vector.
+// brightened. light: towards the light in tangent space, of any length whose square neither overflows nor vanishes, 1e-15
+// to 1e19 (beyond, the shift is too small, down to 0); from a vertex for a light that is near, and then interpolated.
+// amount: the shift of a light at the horizon, in texture coordinates (texels over extent). 0 for the zero vector.
 BUMPSHADOW_FUNCTION vec2 bumpshadow_emboss_shift(vec3 light, vec2 amount) {
     float inverse = inversesqrt(max(dot(light, light), 1e-30f));
     return vec2(light.x * inverse * amount.x, light.y * inverse * amount.y);

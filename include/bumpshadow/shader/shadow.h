@@ -28,7 +28,7 @@ BUMPSHADOW_FUNCTION float bumpshadow_shadow_fade(float factor, float distance, f
 }
 
 // Place i of taps x taps of a pixel that covers many texels, row by row: from its middle, in sides of the pixel. The mean
-// of their factors is the share of the pixel that is lit. Both are whole numbers, i below taps * taps.
+// of their factors is the share of the pixel that is lit. Both are whole numbers, taps 1 to 1024, i below taps * taps.
 BUMPSHADOW_FUNCTION vec2 bumpshadow_pixel_place(float i, float taps) {
     float row = floor((i + 0.5f) / taps);
     return vec2((i - row * taps + 0.5f) / taps - 0.5f, (row + 0.5f) / taps - 0.5f);

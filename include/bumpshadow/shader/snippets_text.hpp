@@ -135,9 +135,9 @@ R"~(float bumpshadow_bearing_diamond(float2 v) {
      {0x10eu, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_emboss_shift",
 R"~(// What is added to the texture coordinates of the inverse height map, so that sides which face the light are
-// brightened. light: towards the light in tangent space, any length; from a vertex for a light that is near, and then
-// interpolated. amount: the shift of a light at the horizon, in texture coordinates (texels over extent). 0 for the
-// zero vector.
+// brightened. light: towards the light in tangent space, of any length whose square neither overflows nor vanishes, 1e-15
+// to 1e19 (beyond, the shift is too small, down to 0); from a vertex for a light that is near, and then interpolated.
+// amount: the shift of a light at the horizon, in texture coordinates (texels over extent). 0 for the zero vector.
 )~",
 R"~(vec2 bumpshadow_emboss_shift(vec3 light, vec2 amount) {
     float inverse = inversesqrt(max(dot(light, light), 1e-30));
@@ -564,7 +564,7 @@ R"~(float bumpshadow_shadow_fade(float factor, float distance, float start, floa
      {0x4000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_pixel_place",
 R"~(// Place i of taps x taps of a pixel that covers many texels, row by row: from its middle, in sides of the pixel. The mean
-// of their factors is the share of the pixel that is lit. Both are whole numbers, i below taps * taps.
+// of their factors is the share of the pixel that is lit. Both are whole numbers, taps 1 to 1024, i below taps * taps.
 )~",
 R"~(vec2 bumpshadow_pixel_place(float i, float taps) {
     float row = floor((i + 0.5) / taps);
@@ -793,7 +793,8 @@ R"~(float3 bumpshadow_ssbump_project(float3 v) {
 )~",
      {0x10000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_normal",
-R"~(// Unit normal: of the surface for masks without occlusion, else bent towards where it is open. Black gives straight up.
+R"~(// Unit normal: of the surface for masks without occlusion, else bent towards where it is open. Black, and whatever is
+// shorter than 1e-4, gives straight up.
 )~",
 R"~(vec3 bumpshadow_ssbump_normal(vec3 masks) {
     vec3 sum = bumpshadow_ssbump_sum(masks);
@@ -847,7 +848,7 @@ R"~(float3 bumpshadow_ssbump_world_blue(float3 tangent, float3 bitangent, float3
      {0x100000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_ssbump_world_normal",
 R"~(// Straight to a unit normal in the world; red, green, blue: from the three functions above. Black gives the zero
-// vector.
+// vector, and masks shorter than 1e-10 a shorter one.
 )~",
 R"~(vec3 bumpshadow_ssbump_world_normal(vec3 masks, vec3 red, vec3 green, vec3 blue) {
     vec3 sum = masks.x * red + masks.y * green + masks.z * blue;
@@ -903,7 +904,7 @@ R"~(float3 bumpshadow_ssbump_lightmaps(float3 masks, float3 red, float3 green, f
      {0x2000000000000000u, 0x0u, 0x0u, 0x0u}},
     {"bumpshadow_normal_lightmaps",
 R"~(// The same lightmaps with an ordinary normal map (McTaggart 2004, Half-Life 2 / Valve Source Shading): weights are the
-// squares of the clamped dots, over their sum.
+// squares of the clamped dots, over their sum. A normal of any length from 1e-10 to 1e15.
 )~",
 R"~(vec3 bumpshadow_normal_lightmaps(vec3 normal, vec3 red, vec3 green, vec3 blue) {
     vec3 dots = max(bumpshadow_ssbump_project(normal), 0.0);
@@ -1097,6 +1098,7 @@ R"~(float2 bumpshadow_vertex_bearing_diamond(float3 light, float most) {
      {0x4000010fu, 0x1080u, 0x0u, 0x0u}},
     {"bumpshadow_vertex_direction",
 R"~(// Direction (xy, of length 1; 0 straight up, so that such a vertex leaves the direction to the others) and slope (z).
+// Of length 1 while the square of the light's xy neither overflows nor vanishes, from 1e-15 to 1e19; beyond, shorter.
 )~",
 R"~(vec3 bumpshadow_vertex_direction(vec3 light, float most) {
     float inverse = inversesqrt(max(light.x * light.x + light.y * light.y, 1e-30));

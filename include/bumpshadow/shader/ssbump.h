@@ -2,7 +2,8 @@
 // surface normal (Ols 2010; Green 2007, Efficient Self-Shadowed Radiosity Normal Mapping). In tangent space they are
 //   red (sqrt(2/3), 0, 1/sqrt(3)), green (-1/sqrt(6), 1/sqrt(2), 1/sqrt(3)), blue (-1/sqrt(6), -1/sqrt(2), 1/sqrt(3)).
 // masks: what the texture holds. Where the y of the map and that of the tangent space point opposite ways, pass the
-// masks through bumpshadow_ssbump_other_hand first. All functions are finite for every input that is.
+// masks through bumpshadow_ssbump_other_hand first. All functions are finite for masks, vectors and lights of up to 1e15
+// and lightmaps of up to 1e6; where squares overflow they give the zero vector or what is not a number.
 
 // Left-handed (y-down) masks to right-handed (y-up) ones and back: green and blue swapped, which is the same as
 // swapping the last two vectors of the basis. Doing both undoes it.
@@ -23,7 +24,8 @@ BUMPSHADOW_FUNCTION vec3 bumpshadow_ssbump_project(vec3 v) {
     return vec3(0.81649658f * v.x + up, back + side, back - side);
 }
 
-// Unit normal: of the surface for masks without occlusion, else bent towards where it is open. Black gives straight up.
+// Unit normal: of the surface for masks without occlusion, else bent towards where it is open. Black, and whatever is
+// shorter than 1e-4, gives straight up.
 BUMPSHADOW_FUNCTION vec3 bumpshadow_ssbump_normal(vec3 masks) {
     vec3 sum = bumpshadow_ssbump_sum(masks);
     float square = dot(sum, sum);
@@ -45,7 +47,7 @@ BUMPSHADOW_FUNCTION vec3 bumpshadow_ssbump_world_blue(vec3 tangent, vec3 bitange
 }
 
 // Straight to a unit normal in the world; red, green, blue: from the three functions above. Black gives the zero
-// vector.
+// vector, and masks shorter than 1e-10 a shorter one.
 BUMPSHADOW_FUNCTION vec3 bumpshadow_ssbump_world_normal(vec3 masks, vec3 red, vec3 green, vec3 blue) {
     vec3 sum = masks.x * red + masks.y * green + masks.z * blue;
     return sum * inversesqrt(max(dot(sum, sum), 1e-20f));
@@ -71,7 +73,7 @@ BUMPSHADOW_FUNCTION vec3 bumpshadow_ssbump_lightmaps(vec3 masks, vec3 red, vec3 
 }
 
 // The same lightmaps with an ordinary normal map (McTaggart 2004, Half-Life 2 / Valve Source Shading): weights are the
-// squares of the clamped dots, over their sum.
+// squares of the clamped dots, over their sum. A normal of any length from 1e-10 to 1e15.
 BUMPSHADOW_FUNCTION vec3 bumpshadow_normal_lightmaps(vec3 normal, vec3 red, vec3 green, vec3 blue) {
     vec3 dots = max(bumpshadow_ssbump_project(normal), 0.0f);
     vec3 squares = dots * dots;

@@ -39,6 +39,7 @@ BUMPSHADOW_FUNCTION vec2 bumpshadow_vertex_bearing_diamond(vec3 light, float mos
 }
 
 // Direction (xy, of length 1; 0 straight up, so that such a vertex leaves the direction to the others) and slope (z).
+// Of length 1 while the square of the light's xy neither overflows nor vanishes, from 1e-15 to 1e19; beyond, shorter.
 BUMPSHADOW_FUNCTION vec3 bumpshadow_vertex_direction(vec3 light, float most) {
     float inverse = inversesqrt(max(light.x * light.x + light.y * light.y, 1e-30f));
     return vec3(light.x * inverse, light.y * inverse, bumpshadow_vertex_slope(light, most));
