@@ -269,3 +269,38 @@ TEST_CASE("snippets: lengths whose squares neither overflow nor vanish, and what
     CHECK(bumpshadow_ssbump_normal(glm::vec3(1e-5f)) == up);
     CHECK(bumpshadow_normal_of_derivatives({0.0f, 0.5f}, 1e18f, 1.0f).x == doctest::Approx(1.0));
 }
+
+TEST_CASE("scaled_emboss: heights and ranges that a double does not hold are refused") {
+    std::array<double, 2> heights{};
+    auto map = tight_height_map<double>(heights.data(), {2, 1});
+    const auto scaled = [&](double a, double b, double height_scale = 1.0, double datum = 0.0) {
+        heights = {a, b};
+        map.height_scale = height_scale;
+        map.datum = datum;
+        emboss out{-7.0, -7.0};
+        const status s = scaled_emboss(map, out);
+        CHECK((out.scale == -7.0) == !s);
+        return std::pair(s, out);
+    };
+    refused(scaled(-1.7e308, 1.7e308).first, error::out_of_range, "range of heights");
+    refused(scaled(0.0, 5e-324).first, error::out_of_range, "range of heights");
+    const status place = scaled(1.0, 1e300, 1e300).first;
+    refused(place, error::out_of_range, "height");
+    CHECK(place.texel() == glm::ivec2(1, 0));
+    refused(scaled(1e308, 1e308, 1.0, -1e308).first, error::out_of_range, "height");
+    CHECK(scaled(0.0, 1e308).second.scale == doctest::Approx(5e-309).epsilon(1e-9));
+    CHECK(scaled(1e-300, 2e-300).second.scale == doctest::Approx(5e299));
+    CHECK(scaled(3.0, 3.0).second.scale == 0.0);
+
+    // Heights that overflow against an encoding of one's own are outside, and counted.
+    heights = {1.0, 1e300};
+    map.height_scale = 1e300;
+    map.datum = 0.0;
+    for (const double scale : {0.0, 1e-300}) {
+        std::array<std::byte, 2> bytes{};
+        std::size_t clamped = 0;
+        CHECK(bool(pack_emboss(map, emboss{1e300, scale}, {bytes, layout_of(emboss{}, {2, 1})}, {}, &clamped)));
+        CHECK(clamped == 1);
+        CHECK(bytes[0] == std::byte(0));
+    }
+}

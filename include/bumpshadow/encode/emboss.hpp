@@ -43,7 +43,8 @@ inline constexpr int emboss_half = 128;
 [[nodiscard]] constexpr int fetches(const emboss&) { return 2; }
 
 // The encoding that scales the heights of a map into 0 to 0.5; a flat map becomes 0. Errors: what check() finds,
-// samples that are not finite.
+// samples that are not finite, a height or a range of heights that a double does not hold, a range that is not 0 but
+// whose inverse it does not hold.
 template <height_sample Sample>
 [[nodiscard]] status scaled_emboss(const height_map<Sample>& heights, emboss& out) {
     if (status s = check(heights); !s) return s;
@@ -54,10 +55,21 @@ template <height_sample Sample>
             const Sample sample = sample_at(heights, x, y);
             if (is_no_data(heights, sample)) continue;
             const double height = double(sample) * unit_height(heights) - heights.datum;
+            if (!is_finite(height))
+                return {error::out_of_range, "height", height, (std::numeric_limits<double>::max)(), {x, y}};
             low = (std::min)(low, height);
             high = (std::max)(high, height);
         }
-    out = high > low ? emboss{low, 0.5 / (high - low)} : emboss{is_finite(low) ? low : 0.0, 0.0};
+    if (!(high > low)) {
+        out = {is_finite(low) ? low : 0.0, 0.0};
+        return {};
+    }
+    const double range = high - low, scale = 0.5 / range;
+    if (!is_finite(range))
+        return {error::out_of_range, "range of heights", range, (std::numeric_limits<double>::max)()};
+    if (!is_finite(scale))
+        return {error::out_of_range, "range of heights", range, 0.5 / (std::numeric_limits<double>::max)()};
+    out = {low, scale};
     return {};
 }
 
@@ -135,7 +147,7 @@ template <height_sample Sample, executor Executor = serial>
             }
             const double value = (double(sample) * unit - heights.datum - encoding.lowest) * encoding.scale;
             // The extremes of a scaled map may land outside by rounding.
-            if (value < -1e-9 || value > 0.5 + 1e-9) ++count;
+            if (!(value >= -1e-9 && value <= 0.5 + 1e-9)) ++count;
             store(0, x, y, to_unorm8(float(std::clamp(value, 0.0, 0.5))));
         }
         outside.fetch_add(count, std::memory_order_relaxed);
