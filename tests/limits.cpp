@@ -304,3 +304,157 @@ TEST_CASE("scaled_emboss: heights and ranges that a double does not hold are ref
         CHECK(bytes[0] == std::byte(0));
     }
 }
+
+namespace {
+
+// A tangent volume of one texel, all of its slices 50/255.
+struct even_volume {
+    tangent_volume encoding;
+    std::vector<std::byte> bytes;
+    const_texture view;
+
+    explicit even_volume(texture_kind kind) : encoding{.slices = {.count = 8}, .kind = kind} {
+        const texture_layout layout = layout_of(encoding, {1, 1});
+        bytes.assign(layout.required_size(), std::byte(50));
+        view = {bytes, layout};
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a pixel's light that is not a number gives a factor all the same") {
+    for (const texture_kind kind : {texture_kind::volume, texture_kind::array}) {
+        const even_volume volume(kind);
+        const auto factor = [&](float bearing, float slope, shadow_edge edge = {}) {
+            return shadow_factor(volume.encoding, volume.view, sampler{}, glm::vec2(0.3f), pixel_light{bearing, slope},
+                                 edge);
+        };
+        for (const float bad : {not_a_number, infinity, -infinity}) CHECK(factor(bad, 1.0f) == 0.0f);
+        CHECK(factor(0.0f, not_a_number) == 0.0f);
+        CHECK(factor(0.0f, infinity) == 1.0f);
+        CHECK(factor(0.0f, -infinity) == 0.0f);
+        for (const float bearing : {0.0f, 0.3f, -7.0f, 1e30f, largest, -largest, 1e-45f, not_a_number, infinity})
+            for (const float slope : {0.0f, 1e-45f, 1.0f, 1e20f, largest, -largest, not_a_number, infinity, -infinity})
+                for (const float k : {0.0f, 8.0f, largest, infinity})
+                    for (const float c : {0.0f, 0.5f, 1.0f}) {
+                        CAPTURE(bearing);
+                        CAPTURE(slope);
+                        CAPTURE(k);
+                        const float found = factor(bearing, slope, {k, c});
+                        CHECK((found >= 0.0f && found <= 1.0f));
+                    }
+    }
+}
+
+TEST_CASE("emboss: a shift that no float holds reads height 0") {
+    const std::array<std::byte, 1> height{std::byte(64)};
+    const texture_layout layout = layout_of(emboss{}, {1, 1});
+    for (const float amount : {infinity, -infinity, not_a_number})
+        for (const glm::vec2 way : {glm::vec2(amount, 0.1f), glm::vec2(0.1f, amount)}) {
+            const emboss_texture from{{height, layout}, way};
+            // Twice 64 and the inverse of 0, which is 128, over 255.
+            CHECK(shadow_factor(emboss{}, from, sampler{}, glm::vec2(0.5f), {1.0f, 1.0f, 1.0f}) ==
+                  doctest::Approx(2.0 * 192.0 / 255.0));
+        }
+    const emboss_texture far{{height, layout}, glm::vec2(largest)};
+    CHECK(shadow_factor(emboss{}, far, sampler{}, glm::vec2(0.5f), {1.0f, 1.0f, 1.0f}) ==
+          doctest::Approx(2.0 * 128.0 / 255.0));
+}
+
+namespace {
+
+// An encoding whose factor is 1 everywhere, and that counts how often it is asked.
+struct lit {
+    int* asked;
+};
+float shadow_factor(const lit& encoding, int, const sampler&, glm::vec2, glm::vec3, const shadow_edge&, float) {
+    ++*encoding.asked;
+    return 1.0f;
+}
+
+}  // namespace
+
+TEST_CASE("places of a pixel: 1 to 1024 along a side") {
+    int asked = 0;
+    const auto factor = [&](int taps) {
+        asked = 0;
+        return pixel_factor(lit{&asked}, 0, sampler{}, glm::vec2(0.5f), glm::vec2(0.1f), taps, glm::vec3(1.0f));
+    };
+    for (const int taps : {0, -1, INT_MIN, 1}) {
+        CHECK(factor(taps) == 1.0f);
+        CHECK(asked == 1);
+    }
+    CHECK(factor(46341) == 1.0f);
+    CHECK(asked == 1024 * 1024);
+    // Each place is that of its row and column.
+    int wrong = 0;
+    for (int row = 0; row < 1024; ++row)
+        for (int column = 0; column < 1024; ++column) {
+            const glm::vec2 place = tap_offset(row * 1024 + column, 1024);
+            const double x = (column + 0.5) / 1024.0 - 0.5, y = (row + 0.5) / 1024.0 - 0.5;
+            wrong += std::abs(double(place.x) - x) > 1e-6 || std::abs(double(place.y) - y) > 1e-6;
+        }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("suggested slopes pass the check, whatever the limit") {
+    std::vector<float> slopes(4, 0.0f);
+    const horizon_map map{slopes, {2, 2}, 1};
+    const auto suggested = [&](float limit) {
+        const float slope = suggest_max_slope(map, limit);
+        CAPTURE(limit);
+        CHECK(bool(check(horizon_scale{quantity::slope, slope})));
+        return slope;
+    };
+    for (const float limit : {not_a_number, infinity, largest}) CHECK(suggested(limit) == 1e37f);
+    for (const float limit : {0.0f, -1.0f, -infinity, 1e-40f}) CHECK(suggested(limit) == 1e-18f);
+    slopes[2] = 2.0f;
+    for (const float limit : {not_a_number, infinity, 3.0f}) CHECK(suggested(limit) == 2.0f);
+    CHECK(suggested(1.5f) == 1.5f);
+    slopes[1] = infinity;
+    CHECK(suggested(infinity) == 1e37f);
+}
+
+TEST_CASE("figures of errors that are infinite or whose squares are") {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    std::array<double, 3> both{endless, 1.0, -endless}, one{1.0, -endless, 2.0}, large{2e200, -1e200, 3e200};
+    const error_figures a = figures_of(both);
+    CHECK(a.mean == endless);
+    CHECK(a.largest == endless);
+    CHECK(a.rms == endless);
+    CHECK(a.interval == endless);
+    CHECK(std::isnan(a.bias));
+    const error_figures b = figures_of(one);
+    CHECK(b.bias == -endless);
+    CHECK(b.interval == endless);
+    const error_figures c = figures_of(large);
+    CHECK(c.mean == doctest::Approx(2e200));
+    CHECK(c.bias == doctest::Approx(4e200 / 3.0));
+    CHECK(c.largest == 3e200);
+    CHECK(c.rms == endless);
+    CHECK(c.interval == endless);
+}
+
+TEST_CASE("reflection: an eye at any distance") {
+    // White masks: the normal is straight up, and what is beside it is turned round.
+    const ssbump encoding;
+    const texture_layout layout = layout_of(encoding, {1, 1});
+    const std::vector<std::byte> white(layout.required_size(), std::byte(255));
+    std::array<std::byte, 24> faces{};
+    for (std::size_t face = 0; face < 6; ++face) faces[4 * face] = std::byte(40 * face);
+    const const_texture cube{
+        faces, {.format = texel_format::rgba8, .kind = texture_kind::cube, .extent = {1, 1}, .layers = 6}};
+    const auto face = [&](glm::vec3 eye) {
+        sampler nearest;
+        nearest.texels = filter_mode::point;
+        return int(reflected(encoding, {white, layout}, nearest, surface_point{}, eye, cube).x * 255.0f / 40.0f + 0.5f);
+    };
+    for (const float length : {1e-45f, 1e-30f, 1.0f, 1e20f, largest}) {
+        CAPTURE(length);
+        CHECK(face({length, 0.0f, 0.0f}) == 1);
+        CHECK(face({0.0f, -length, 0.0f}) == 2);
+        CHECK(face({0.0f, 0.0f, length}) == 4);
+        CHECK(face({0.0f, 0.0f, -length}) == 5);
+    }
+    CHECK(face(glm::vec3(0.0f)) == 4);
+}

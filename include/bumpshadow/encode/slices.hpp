@@ -216,10 +216,12 @@ template <executor Executor = serial>
 
 // max_slope for a map: its steepest horizon, but at most `most`, since light above that is hardly ever shadowed and the
 // rest gains precision. A map without horizons to speak of gets `most`.
+//   most: smallest_max_slope to largest_max_slope; beyond counts as the nearer of the two, NaN as the larger
 // Source: Forsyth 2002, Self-shadowing Bumpmap using 3D Texture Hardware, section 4.1.
 [[nodiscard]] inline float suggest_max_slope(const horizon_map& slopes, float most = 4.0f) {
+    const float limit = most < largest_max_slope ? (std::max)(most, smallest_max_slope) : largest_max_slope;
     const float steepest = steepest_slope(slopes);
-    return steepest >= smallest_max_slope && steepest < most ? steepest : most;
+    return steepest >= smallest_max_slope && steepest < limit ? steepest : limit;
 }
 
 }  // namespace bumpshadow

@@ -38,7 +38,9 @@ struct error_figures {
 }
 
 // Figures of a list of errors, whose order changes.
-//   errors     signed; NaN: left out and not counted
+//   errors     signed, up to 1e150 in size, beyond which their squares may make rms and interval infinite. Infinite
+//              ones make mean and largest infinite, too, and bias, which is NaN where there are both signs. NaN: left
+//              out and not counted
 //   per_texel  so many that follow each other belong to one texel
 // The errors of one texel are alike, so that texels and not errors are what is drawn at random. With e_i the sum of the
 // sizes of texel i, m_i their number, n texels that have any and M = sum of m_i, the mean is sum of e_i / M and
@@ -78,7 +80,7 @@ struct error_figures {
         texels += 1.0;
         deviations += (size - figures.mean * number) * (size - figures.mean * number);
     }
-    figures.interval = texels < 2.0
+    figures.interval = texels < 2.0 || !std::isfinite(figures.mean)
                            ? std::numeric_limits<double>::infinity()
                            : standard_errors_95(texels - 1.0) * std::sqrt(texels / (texels - 1.0) * deviations) / count;
 

@@ -225,7 +225,7 @@ template <class Encoding, class Textures>
 // The height texture of embossing, and the shift of a light at the horizon in texture coordinates.
 struct emboss_texture {
     const_texture heights;   // pack_emboss
-    glm::vec2 amount{0.0f};  // texture coordinates
+    glm::vec2 amount{0.0f};  // texture coordinates; where it leads beyond what a float holds, the height counts as 0
 };
 
 // What the base texture is multiplied by, 0 to 2: 256/255 where the surface is flat, more where it faces the light.
@@ -235,7 +235,9 @@ struct emboss_texture {
     const glm::vec3 direction = shadow_detail::scaled(light);
     if (direction.z < 0.0f) return 0.0f;
     const glm::vec2 shift = shader::bumpshadow_emboss_shift(direction, from.amount);
-    const float inverse = shader::bumpshadow_emboss_inverse(sample(from.heights, how, uv + shift, level).x);
+    const glm::vec2 there = uv + shift;
+    const bool reached = is_finite(there.x) && is_finite(there.y);
+    const float inverse = shader::bumpshadow_emboss_inverse(reached ? sample(from.heights, how, there, level).x : 0.0f);
     return 2.0f * shader::bumpshadow_emboss_relief(sample(from.heights, how, uv, level).x, inverse);
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 
 #include <bumpshadow/encode/quantity.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/reference/shadow.hpp>
 #include <bumpshadow/reference/shadow_edge.hpp>
@@ -63,10 +64,12 @@ struct pixel_light {
     return {glm::dot(bearings, weights), glm::dot(slopes, weights)};
 }
 
-// Shadow factor of an encoding that is looked up by bearing: tangent_volume or slice_layers.
+// Shadow factor of an encoding that is looked up by bearing: tangent_volume or slice_layers. In [0, 1] for any light; 0
+// for a bearing that is not finite and a slope that is not a number. An infinite slope is a light straight up or down.
 template <class Encoding, class Textures>
 [[nodiscard]] float shadow_factor(const Encoding& encoding, const Textures& textures, const sampler& how, glm::vec2 uv,
                                   pixel_light light, const shadow_edge& edge = {}, float level = 0.0f) {
+    if (!is_finite(light.bearing) || is_nan(light.slope)) return 0.0f;
     const float elevation = quantity_of_slope(encoding.scale.stored, light.slope) * stored_scale(encoding.scale);
     return shadow_detail::edge_factor(elevation, horizon_at(encoding, textures, how, uv, light.bearing, level), edge);
 }
