@@ -299,6 +299,25 @@ void add_pictures(std::vector<producer>& all) {
     static const tangent_volume volume{.slices = {.count = 8}, .scale = {.max_slope = 2.0f}};
     static const texture_layout layout = layout_of(volume, extent);
     static const std::vector<std::byte> slices(layout.required_size(), std::byte(50));
+    all.push_back({"recover_normals", floats(required_size(extent, 3)), 0,
+                   [](outputs& o, const from&, const any_executor& execute) {
+                       const ssbump masks;
+                       return recover_normals({gray, layout_of(masks, extent)}, masks,
+                                              normal_map{.values = o.numbers, .extent = extent}, 0, execute);
+                   },
+                   false});
+    all.push_back({"bend_normals", floats(required_size(extent, 3)), 0,
+                   [](outputs& o, const from&, const any_executor& execute) {
+                       return bend_normals(levels()[0], around(), normal_map{.values = o.numbers, .extent = extent},
+                                           execute);
+                   },
+                   false});
+    all.push_back({"to_srgb8", bytes(gray.size()), 0,
+                   [](outputs& o, const from&, const any_executor& execute) {
+                       return to_srgb8(rgb_image{.values = storage, .extent = extent},
+                                       pixels{.bytes = o.bytes, .extent = extent}, 0.9f, execute);
+                   },
+                   false});
     using shadow = encoded_shadow<tangent_volume>;
     static const shadow with{.encoding = volume, .textures = {slices, layout}, .edge = {8.0f, 1.0f}};
     for (const bool near : {false, true})
@@ -312,6 +331,34 @@ void add_pictures(std::vector<producer>& all) {
                        false});
 }
 
+// Embossing takes no memory either. The base is another picture than the output, so that items may run again.
+void add_embossed(std::vector<producer>& all) {
+    static const texture_layout layout = layout_of(emboss{}, extent);
+    static const std::vector<std::byte> stored = [] {
+        std::vector<std::byte> made(layout.required_size());
+        static_cast<void>(pack_emboss(field().view(), emboss{.lowest = 0.0, .scale = 0.1}, texture{made, layout}));
+        return made;
+    }();
+    static const std::vector<std::byte> gray(required_size(extent, 3), std::byte(99));
+    static const auto shift = [](glm::vec2 uv) { return glm::vec2(1.5f, uv.y); };
+    all.push_back({"draw_relief", bytes(required_size(extent, 1)), 0,
+                   [](outputs& o, const from&, const any_executor& execute) {
+                       return draw_relief({stored, layout}, edge_mode::repeat, shift,
+                                          pixels{.bytes = o.bytes, .extent = extent, .channels = 1}, execute);
+                   },
+                   false});
+    for (const emboss_passes passes : {emboss_passes::three, emboss_passes::one})
+        all.push_back({passes == emboss_passes::one ? "draw_emboss, one pass" : "draw_emboss, three passes",
+                       bytes(gray.size()), 0,
+                       [passes](outputs& o, const from&, const any_executor& execute) {
+                           return draw_emboss({stored, layout}, edge_mode::open,
+                                              const_pixels{.bytes = gray, .extent = extent, .channels = 3}, shift,
+                                              pixels{.bytes = o.bytes, .extent = extent, .channels = 3}, passes,
+                                              {1.0f, 0.5f, 0.25f}, execute);
+                       },
+                       false});
+}
+
 }  // namespace
 
 std::vector<producer> all_producers() {
@@ -321,6 +368,7 @@ std::vector<producer> all_producers() {
     add_mips(all);
     add_measures(all);
     add_pictures(all);
+    add_embossed(all);
     return all;
 }
 
