@@ -19,9 +19,10 @@ class height_bounds {
 public:
     static constexpr int finest_shift = 3;  // blocks of 8 x 8 texels; a larger one is taken where the storage is small
 
-    // Samples of storage for blocks of 2^shift texels.
+    // Samples of storage for blocks of 2^shift texels; 0 for an extent without texels.
     [[nodiscard]] static constexpr std::size_t required_size(glm::ivec2 extent, int shift = finest_shift) {
         std::size_t size = 0;
+        if (extent.x <= 0 || extent.y <= 0) return size;
         for (int s = shift;; ++s) {
             const std::int64_t x = blocks(extent.x, s), y = blocks(extent.y, s);
             size += std::size_t(x * y);

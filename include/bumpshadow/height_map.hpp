@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -36,6 +37,14 @@ struct rectangle {
     [[nodiscard]] constexpr bool empty() const { return extent.x <= 0 || extent.y <= 0; }
 };
 
+// Of a height map, at the most: texels along a side, so that indices of half texels and margins are still ints.
+inline constexpr int largest_side = 1 << 30;
+// Texel sizes lie between 1 / largest_length and this, height scales not above it on either side of 0, so that
+// quotients, squares and sums of such lengths are far from the limits of double.
+inline constexpr double largest_length = 1e150;
+// Samples in double are not above this on either side of 0, so that their differences are finite.
+inline constexpr double largest_sample = 1e300;
+
 // A view of heights; owns nothing.
 //
 // Texel (x, y) is samples[y * row_stride + x]: x along +u, y along +v, row-major. Tangent space is +x along +u,
@@ -48,11 +57,12 @@ struct rectangle {
 template <height_sample Sample>
 struct height_map {
     const Sample* samples = nullptr;     // of texel (0, 0)
-    glm::ivec2 extent{0};                // texels
+    glm::ivec2 extent{0};                // texels, 1 to largest_side
     std::ptrdiff_t row_stride = 0;       // samples from one row to the next
-    double height_scale = 1.0;           // units a sample; for 8 and 16 bits the height of the largest sample value
+    double height_scale = 1.0;           // units a sample; for 8 and 16 bits the height of the largest sample value;
+                                         // -largest_length to largest_length
     double datum = 0.0;                  // units, subtracted from every height
-    glm::dvec2 texel_size{1.0, 1.0};     // units between texel centers
+    glm::dvec2 texel_size{1.0, 1.0};     // units between texel centers, 1 / largest_length to largest_length
     edge_mode edge = edge_mode::repeat;  // what lies beyond the border
     std::optional<Sample> no_data = {};  // this value (or NaN) marks a hole: it does not occlude and is never shadowed
 };
@@ -124,24 +134,39 @@ template <height_sample Sample>
     return heights.samples[y * heights.row_stride + x];
 }
 
+// Checks extent and texel size, which are all that sizes of scratch depend on.
+[[nodiscard]] inline status check_grid(glm::ivec2 extent, glm::dvec2 texel_size) {
+    constexpr const char* sides[] = {"heights.extent.x", "heights.extent.y"};
+    constexpr const char* sizes[] = {"texel_size.x", "texel_size.y"};
+    for (int i = 0; i < 2; ++i) {
+        if (extent[i] <= 0) return {error::not_positive, sides[i], double(extent[i])};
+        if (extent[i] > largest_side) return {error::out_of_range, sides[i], double(extent[i]), double(largest_side)};
+    }
+    for (int i = 0; i < 2; ++i) {
+        const double size = texel_size[i], least = 1.0 / largest_length;
+        if (!is_finite(size)) return {error::not_finite, sizes[i], size};
+        if (!(size > 0.0)) return {error::not_positive, sizes[i], size};
+        if (size < least) return {error::out_of_range, sizes[i], size, least};
+        if (size > largest_length) return {error::out_of_range, sizes[i], size, largest_length};
+    }
+    return {};
+}
+
 // Checks everything about a view that costs no pass over the samples.
 template <height_sample Sample>
 [[nodiscard]] status check(const height_map<Sample>& heights) {
     if (heights.samples == nullptr) return {error::missing, "heights.samples"};
-    if (heights.extent.x <= 0) return {error::not_positive, "heights.extent.x", double(heights.extent.x)};
-    if (heights.extent.y <= 0) return {error::not_positive, "heights.extent.y", double(heights.extent.y)};
+    if (status s = check_grid(heights.extent, heights.texel_size); !s) return s;
     if (heights.row_stride < heights.extent.x)
         return {error::too_small, "heights.row_stride", double(heights.row_stride), double(heights.extent.x)};
     if (!is_finite(heights.height_scale)) return {error::not_finite, "height_scale", heights.height_scale};
+    if (std::abs(heights.height_scale) > largest_length)
+        return {error::out_of_range, "height_scale", heights.height_scale, largest_length};
     if (!is_finite(heights.datum)) return {error::not_finite, "datum", heights.datum};
-    if (!is_finite(heights.texel_size.x)) return {error::not_finite, "texel_size.x", heights.texel_size.x};
-    if (!is_finite(heights.texel_size.y)) return {error::not_finite, "texel_size.y", heights.texel_size.y};
-    if (!(heights.texel_size.x > 0.0)) return {error::not_positive, "texel_size.x", heights.texel_size.x};
-    if (!(heights.texel_size.y > 0.0)) return {error::not_positive, "texel_size.y", heights.texel_size.y};
     return {};
 }
 
-// Looks for the first sample, in row order, that is NaN or infinite and is not no_data.
+// Looks for the first sample, in row order, that is NaN, infinite or above largest_sample, and is not no_data.
 template <height_sample Sample>
 [[nodiscard]] status check_samples(const height_map<Sample>& heights) {
     if constexpr (std::is_floating_point_v<Sample>) {
@@ -152,10 +177,15 @@ template <height_sample Sample>
                 const auto bits = finite_detail::magnitude(row[x]);
                 largest = bits > largest ? bits : largest;
             }
-            if (largest < finite_detail::infinity_bits<Sample>) continue;
-            for (int x = 0; x < heights.extent.x; ++x)
-                if (!is_finite(row[x]) && !is_no_data(heights, row[x]))
-                    return {error::not_finite, "height", double(row[x]), 0.0, {x, y}};
+            constexpr Sample most =
+                std::is_same_v<Sample, double> ? Sample(largest_sample) : (std::numeric_limits<Sample>::max)();
+            if (largest <= finite_detail::magnitude(most)) continue;
+            for (int x = 0; x < heights.extent.x; ++x) {
+                if (is_no_data(heights, row[x])) continue;
+                if (!is_finite(row[x])) return {error::not_finite, "height", double(row[x]), 0.0, {x, y}};
+                if (std::abs(row[x]) > most)
+                    return {error::out_of_range, "sample", double(row[x]), double(most), {x, y}};
+            }
         }
     }
     return {};
