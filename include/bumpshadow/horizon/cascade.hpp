@@ -15,6 +15,7 @@
 #include <bumpshadow/horizon/cascade_cells.hpp>
 #include <bumpshadow/horizon/cascade_levels.hpp>
 #include <bumpshadow/horizon/cascade_texels.hpp>
+#include <bumpshadow/horizon/relief.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/status.hpp>
@@ -57,11 +58,13 @@ template <height_sample Sample>
 }  // namespace cascade_detail
 
 // Bytes of scratch that bake_cascade takes for these heights on an executor of that concurrency, at the most; no more
-// for more directions.
+// for more directions. Steps count as the nearest that are allowed; 0 where check_grid() refuses the map.
 template <height_sample Sample>
 [[nodiscard]] std::size_t cascade_scratch_size(const height_map<Sample>& heights, const bake_options& options = {},
                                                int concurrency = 1) {
-    return cascade_detail::scratch_bytes(cascade_detail::shape_frames(heights, options.steps), options.steps,
+    if (!check_grid(heights.extent, heights.texel_size)) return 0;
+    const int steps = (std::clamp)(options.steps, 1, most_steps);
+    return cascade_detail::scratch_bytes(cascade_detail::shape_frames(heights, steps), steps,
                                          slot_pool::slots(concurrency, slot_pool::max_slots));
 }
 
@@ -76,8 +79,8 @@ template <height_sample Sample>
 // farther than four times the map, or 4096 texels if that is more.
 // Any extent, edge mode, texel size, radius, curvature. The result is the same for any executor, for any region that a
 // texel is baked in and for any set of directions baked together, bit for bit.
-// Errors: those of check_bake; not_finite with the place of the first such height; out_of_range where heights differ by
-// more than 1e35 texels, or lie 5e19 below reference_texel() on a map with holes or an open edge; scratch.
+// Errors: what check_bake() and check_samples() find; out_of_range where heights are more than 1e35 smaller texel sides
+// above or below reference_texel(), or 5e19 below it on a map with holes or an open edge; scratch.
 template <height_sample Sample, executor Executor = serial>
 [[nodiscard]] status bake_cascade(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
                                   const horizon_map& out, const bake_options& options = {}, Executor&& execute = {}) {
@@ -100,14 +103,8 @@ template <height_sample Sample, executor Executor = serial>
     std::array<pyramid_scratch, 2> building;
     for (std::size_t i = 0; i < 2; ++i) building[i] = carve_pyramid(both[i], block);
     const height_range range = fill_ground(heights, both[0], execute);
-    // Beyond it slopes overflow, or a height would be taken for a hole.
-    const float lowest = holes ? 0.5f * hole_limit : -most_relief;
-    if (range.lowest < lowest)
-        return {error::out_of_range, "lowest height above reference_texel(), in texels", double(range.lowest),
-                double(lowest)};
-    if (range.highest > most_relief && range.highest >= range.lowest)
-        return {error::out_of_range, "highest height above reference_texel(), in texels", double(range.highest),
-                double(most_relief)};
+    // A height that is lower would be taken for a hole.
+    if (status s = relief_detail::check(range, holes ? 0.5f * hole_limit : -relief_detail::most_relief); !s) return s;
     execute(2, [&](std::size_t i) {
         if (!wanted[i]) return;
         if (i == 1) transpose_ground(both[0], both[1]);
@@ -134,20 +131,23 @@ template <height_sample Sample, executor Executor = serial>
 
 // Texels whose horizons may be others when heights in a rectangle of the map change: what to bake again, bit for bit
 // the same as baking everything. All of the map unless the radius is finite, and where reference_texel() may have
-// changed; on a map that tiles, all of an axis where the rectangle would cross a border.
+// changed; on a map that tiles, all of an axis where the rectangle would cross a border. Steps count as the nearest
+// that are allowed; all of the map, too, where check_grid() refuses it or the radius is not above 0.
 template <height_sample Sample>
 [[nodiscard]] rectangle influence(const height_map<Sample>& heights, rectangle changed, const bake_options& options) {
     const rectangle all{glm::ivec2(0), heights.extent};
-    if (is_infinite(options.radius)) return all;
+    if (is_infinite(options.radius) || !(options.radius > 0.0)) return all;
+    if (!check_grid(heights.extent, heights.texel_size)) return all;
+    const int steps = (std::clamp)(options.steps, 1, most_steps);
     const glm::ivec2 start = changed.origin, reference = reference_texel(heights);
     if (reference.x < 0 || start.y < reference.y || (start.y == reference.y && start.x <= reference.x)) return all;
     // Cells of the highest level that looks within the radius, half as high as they are; they take part in those next
     // to them.
     const glm::dvec2 radius = options.radius / heights.texel_size;
-    const int ground_rows = cascade_detail::near_rows(options.steps, false);
+    const int ground_rows = cascade_detail::near_rows(steps, false);
     double reach = ground_rows, cell = 1.0;
     for (int level = 1; reach < (std::max)(radius.x, radius.y); ++level) {
-        reach *= cascade_detail::growth(level, ground_rows, cascade_detail::is_narrow(options.steps));
+        reach *= cascade_detail::growth(level, ground_rows, cascade_detail::is_narrow(steps));
         cell *= 2.0;
     }
     const bool tiles = heights.edge == edge_mode::repeat || heights.edge == edge_mode::mirror;

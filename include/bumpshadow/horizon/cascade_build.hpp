@@ -11,6 +11,7 @@
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/cascade_levels.hpp>
+#include <bumpshadow/horizon/relief.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/simd.hpp>
 
@@ -49,41 +50,17 @@ inline void fill_halo(const ground& g, edge_mode edge) {
         }
 }
 
-struct height_range {
-    float lowest = (std::numeric_limits<float>::max)();
-    float highest = std::numeric_limits<float>::lowest();
-};
+using relief_detail::height_range;
 
-// Copies rows of the heights into level 0, in units of length above the reference.
+// Copies rows of the heights into level 0.
 template <height_sample Sample>
 [[nodiscard]] height_range fill_rows(const height_map<Sample>& heights, const pyramid& p, double reference, int first,
                                      int end) {
     height_range range;
-    const double scale = unit_height(heights) / p.unit;
-    for (int y = first; y < end; ++y) {
-        const Sample* from = heights.samples + y * heights.row_stride;
-        float* to = p.texels.values + p.texels.offset(0, y);
-        float lowest = range.lowest, highest = range.highest;
-        for (int x = 0; x < p.texels.texels.x; ++x) {
-            const float h = float((double(from[x]) - reference) * scale);
-            to[x] = h;
-            lowest = h < lowest ? h : lowest;
-            highest = h > highest ? h : highest;
-        }
-        if (heights.no_data) {
-            lowest = range.lowest, highest = range.highest;
-            for (int x = 0; x < p.texels.texels.x; ++x) {
-                if (is_no_data(heights, from[x])) {
-                    to[x] = hole;
-                } else {
-                    lowest = (std::min)(lowest, to[x]);
-                    highest = (std::max)(highest, to[x]);
-                }
-            }
-        }
-        range.lowest = lowest;
-        range.highest = highest;
-    }
+    const double scale = relief_detail::height_in_texels(heights);
+    for (int y = first; y < end; ++y)
+        (void)relief_detail::copy_row(heights, y, reference, scale, hole, p.texels.values + p.texels.offset(0, y),
+                                      range);
     return range;
 }
 
@@ -122,16 +99,16 @@ inline void transpose_ground(const pyramid& from, const pyramid& to) {
 
 // Interpolated height, raised towards the higher of the two, since a ridge between two samples would be lost. A hole on
 // either side makes a hole.
-[[nodiscard]] inline float resample(float a, float b, float part) {
+[[nodiscard]] inline float resample(float a, float b, float part, bool holes) {
     if (part == 0.0f) return a;
-    if (a < hole_limit || b < hole_limit) return hole;
+    if (holes && (a < hole_limit || b < hole_limit)) return hole;
     const float mean = a + (b - a) * part;
     return mean + resampled_bias * ((std::max)(a, b) - mean);
 }
 
 // The finest grid that can be halved, where level 0 cannot: maps that end are continued to an even size, and maps that
 // tile are resampled to one, so that they still tile.
-inline void copy_base(const pyramid& p, const plane& to, float* blended) {
+inline void copy_base(const pyramid& p, const plane& to, float* blended, bool holes) {
     const ground& g = p.texels;
     for (int y = 0; y < to.cells.y; ++y) {
         float* row = to.row(y);
@@ -146,10 +123,10 @@ inline void copy_base(const pyramid& p, const plane& to, float* blended) {
         const double v = (y + 0.5) / p.base.y - 0.5, above = std::floor(v);
         const float* texels = g.values + g.offset(-1, std::int64_t(above));
         for (int x = 0; x < g.texels.x + 2; ++x)
-            blended[x] = resample(texels[x], texels[x + g.row_step], float(v - above));
+            blended[x] = resample(texels[x], texels[x + g.row_step], float(v - above), holes);
         for (int x = 0; x < to.cells.x; ++x) {
             const double u = (x + 0.5) / p.base.x - 0.5, left = std::floor(u);
-            row[x] = resample(blended[int(left) + 1], blended[int(left) + 2], float(u - left));
+            row[x] = resample(blended[int(left) + 1], blended[int(left) + 2], float(u - left), holes);
         }
     }
 }
@@ -251,7 +228,7 @@ inline void build_pyramid(const pyramid& p, bool holes, const pyramid_scratch& s
     for (int j = 1; j < p.count; ++j) {
         const level& l = p.levels[std::size_t(j)];
         if (j == 1) {
-            if (p.copied) copy_base(p, l.occluders, scratch.row);
+            if (p.copied) copy_base(p, l.occluders, scratch.row, holes);
             mean = top = l.occluders;
         }
         if (l.width > 1) {

@@ -26,7 +26,6 @@ inline constexpr int border = 8;  // texels that level 0 has beyond its halo
 inline constexpr int overhang = 2 * simd::width + 2;
 inline constexpr float hole = -1e37f;           // height of a hole; far enough below to never occlude
 inline constexpr float hole_limit = -1e20f;     // what is below has a hole in it
-inline constexpr float most_relief = 1e35f;     // texels; slopes are less than ten times that
 inline constexpr float occluder_bias = 0.6f;    // a coarse occluder is its mean and this part of the way to its maximum
 inline constexpr float resampled_bias = 0.25f;  // the same of a height that is resampled between two
 

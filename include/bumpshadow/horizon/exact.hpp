@@ -14,6 +14,7 @@
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_bounds.hpp>
 #include <bumpshadow/height_map.hpp>
+#include <bumpshadow/horizon/relief.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/status.hpp>
@@ -124,11 +125,13 @@ public:
             std::swap(curvature.x, curvature.y);
         }
         tangent_ = y / x;
+        // Where texels are very long a ray that hardly leaves its row still goes far along them.
+        const double aside = tangent_ * size.y < rounding * size.x ? 0.0 : tangent_ * size.y;
         if (tangent_ < rounding) tangent_ = 0.0;
         if (tangent_ > 1.0 - rounding) tangent_ = 1.0;
         minor_.moves = tangent_ > 0.0;
 
-        const glm::dvec2 way(size.x, tangent_ * size.y);
+        const glm::dvec2 way(size.x, minor_.moves ? tangent_ * size.y : aside);
         reach_ = std::hypot(way.x, way.y);
         bend_ = 0.5 * (curvature.x * way.x * way.x + curvature.y * way.y * way.y);
         const bool endless = is_infinite(radius);
@@ -137,7 +140,7 @@ public:
         if (endless) bend_ = (std::max)(bend_, 0.0);
         starts_at_zero_ = horizon_is_never_negative(heights.edge, radius, bend_);
 
-        range_ = std::abs(double(bounds.highest()) * unit_ - double(bounds.lowest()) * unit_);
+        range_ = std::abs((double(bounds.highest()) - double(bounds.lowest())) * unit_);
         limit_ = endless ? farthest : (std::min)(radius / reach_, farthest);
         const bool recurs = heights.edge == edge_mode::repeat || heights.edge == edge_mode::mirror;
         if (recurs) {
@@ -337,11 +340,12 @@ template <height_sample Sample>
     return exact_detail::rays<Sample>(heights, coarse, direction, radius, curvature)(texel);
 }
 
-// Bytes of scratch that bake_exact takes: about 1/48 of the samples.
+// Bytes of scratch that bake_exact takes: about 1/48 of the samples; 0 where check_grid() refuses the map.
 template <height_sample Sample>
 [[nodiscard]] std::size_t exact_scratch_size(const height_map<Sample>& heights,
                                              std::span<const glm::dvec2> /*directions*/ = {},
                                              const bake_options& /*options*/ = {}) {
+    if (!check_grid(heights.extent, heights.texel_size)) return 0;
     return scratch_layout().template add<Sample>(height_bounds<Sample>::required_size(heights.extent)).bytes();
 }
 
@@ -349,8 +353,9 @@ template <height_sample Sample>
 //   directions: in surface space, at least one; slice i of the output is direction i
 //   out: slopes, [direction][y][x], of the region's extent; no_horizon where nothing occludes
 //   options.distances: see horizon_sample; options.steps is ignored
-// Errors: what check_bake() and check_samples() find, a scratch span that is too small, no memory. On an error nothing
-// is written. The result does not depend on the executor or on the region, bit for bit.
+// Errors: what check_bake() and check_samples() find; out_of_range where heights differ by more than 1e38 smaller texel
+// sides, of which floats hold no slopes; a scratch span that is too small, no memory. On an error nothing is written.
+// The result does not depend on the executor or on the region, bit for bit.
 template <height_sample Sample, executor Executor = serial>
 [[nodiscard]] status bake_exact(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
                                 const horizon_map& out, const bake_options& options = {}, Executor&& execute = {}) {
@@ -364,6 +369,7 @@ template <height_sample Sample, executor Executor = serial>
         return s;
     const std::size_t samples = height_bounds<Sample>::required_size(heights.extent);
     const height_bounds<Sample> bounds(heights, std::span<Sample>(scratch.carve<Sample>(samples), samples));
+    if (status s = relief_detail::check(heights, bounds); !s) return s;
 
     const rectangle region = region_or_all(options.region, heights.extent);
     constexpr int band = 8;

@@ -14,6 +14,7 @@
 #include <bumpshadow/finite.hpp>
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
+#include <bumpshadow/horizon/relief.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/status.hpp>
@@ -41,7 +42,7 @@ inline constexpr float absent = std::numeric_limits<float>::lowest();
 // A texel of the neighborhood.
 struct tap {
     std::ptrdiff_t offset;  // in the plane, from the central texel
-    float inverse_square;   // of its distance, in lengths of the smaller texel size
+    float inverse;          // of its distance, in lengths of the smaller texel side
 };
 
 struct neighborhood {
@@ -85,8 +86,7 @@ struct neighborhood {
 
 // Heights with a margin that resolves the edge, and the taps sorted by direction.
 struct tables {
-    // Of texel (0, 0); over the smaller texel size, since squares of small and large units are no floats.
-    float* heights;
+    float* heights;  // of texel (0, 0), see relief.hpp
     std::ptrdiff_t stride;
     tap* taps;
     std::array<std::size_t, neighborhood_directions + 1> first;
@@ -108,21 +108,31 @@ template <height_sample Sample>
 }
 
 template <height_sample Sample>
-void fill(const tables& to, const height_map<Sample>& heights, glm::ivec2 reach) {
-    const double unit = unit_height(heights) / (std::min)(heights.texel_size.x, heights.texel_size.y);
-    const double reference = reference_sample(heights);
-    for (std::int64_t y = -reach.y; y < heights.extent.y + reach.y; ++y) {
-        const std::int64_t row = resolve_edge(y, heights.extent.y, heights.edge);
-        float* const target = to.heights + y * to.stride;
-        std::fill_n(target - reach.x, to.stride, absent);
-        if (row < 0) continue;
-        for (std::int64_t x = -reach.x; x < heights.extent.x + reach.x; ++x) {
-            const std::int64_t column = resolve_edge(x, heights.extent.x, heights.edge);
-            if (column < 0) continue;
-            const Sample sample = sample_at(heights, column, row);
-            if (!is_no_data(heights, sample)) target[x] = float((double(sample) - reference) * unit);
+[[nodiscard]] relief_detail::height_range fill(const tables& to, const height_map<Sample>& heights, glm::ivec2 reach) {
+    const double unit = relief_detail::height_in_texels(heights), reference = reference_sample(heights);
+    const int width = heights.extent.x, height = heights.extent.y;
+    relief_detail::height_range range;
+    for (int y = 0; y < height; ++y) {
+        float* const row = to.heights + y * to.stride;
+        std::fill_n(row - reach.x, to.stride, absent);
+        (void)relief_detail::copy_row(heights, y, reference, unit, absent, row, range);
+        for (int i = 1; i <= reach.x; ++i) {
+            const std::int64_t left = resolve_edge(-i, width, heights.edge);
+            const std::int64_t right = resolve_edge(std::int64_t(width) - 1 + i, width, heights.edge);
+            if (left >= 0) row[-i] = row[left];
+            if (right >= 0) row[std::int64_t(width) - 1 + i] = row[right];
         }
     }
+    for (int i = 1; i <= reach.y; ++i)
+        for (const std::int64_t y : {std::int64_t(-i), std::int64_t(height) - 1 + i}) {
+            const std::int64_t from = resolve_edge(y, height, heights.edge);
+            float* const row = to.heights + y * to.stride - reach.x;
+            if (from < 0)
+                std::fill_n(row, to.stride, absent);
+            else
+                std::copy_n(to.heights + from * to.stride - reach.x, to.stride, row);
+        }
+    return range;
 }
 
 // Sines of the horizons of `chunk` texels in one direction, equations 5.1 and 5.2.
@@ -130,13 +140,13 @@ inline void sines(const float* center, std::span<const tap> taps, float* out) {
     float squared_tangent[chunk] = {};
     for (const tap& t : taps) {
         const float* const heights = center + t.offset;
-        const float weight = 0.25f * t.inverse_square;
+        const float weight = 0.5f * t.inverse;
         for (int x = 0; x < chunk; ++x) {
             const float difference = heights[x] - center[x];
             // Twice the difference where it is positive, else 0: written so that compilers vectorize the loop.
             const float higher = difference + std::abs(difference);
-            const float tangent = higher * higher * weight;
-            squared_tangent[x] = tangent > squared_tangent[x] ? tangent : squared_tangent[x];
+            const float tangent = higher * weight, square = tangent * tangent;
+            squared_tangent[x] = square > squared_tangent[x] ? square : squared_tangent[x];
         }
     }
     for (int x = 0; x < chunk; ++x) {
@@ -148,11 +158,13 @@ inline void sines(const float* center, std::span<const tap> taps, float* out) {
 
 }  // namespace neighborhood_detail
 
-// Bytes of scratch of bake_neighborhood: 4 for each texel of the map and of a margin of the radius around it.
+// Bytes of scratch of bake_neighborhood: 4 for each texel of the map and of a margin of the radius around it; 0 where
+// check_grid() refuses the map.
 template <height_sample Sample>
 [[nodiscard]] std::size_t neighborhood_scratch_size(const height_map<Sample>& heights,
                                                     std::span<const glm::dvec2> /*directions*/ = {},
                                                     const bake_options& options = {}) {
+    if (!check_grid(heights.extent, heights.texel_size)) return 0;
     const neighborhood_detail::neighborhood around(heights.texel_size, options.radius);
     std::size_t count = 0;
     around.marks([&](int, int, int, double) { ++count; });
@@ -171,8 +183,8 @@ template <height_sample Sample>
 //   options.radius: reach in the unit of texel_size; infinite, the default, stands for the paper's 16 texels
 // A texel affects the directions that pass its center by at most half its diagonal; several where it is near.
 // Errors: what check_bake() and check_samples() find, curvature or distances (not_supported), a radius above 1024
-// texels, scratch. On an error nothing is written. The result does not depend on the executor or the region, bit for
-// bit.
+// texels, heights more than 1e35 smaller texel sides above or below reference_texel() (out_of_range), scratch. On an
+// error nothing is written. The result does not depend on the executor or the region, bit for bit.
 // Accuracy: a smoothed horizon of small range, which does not approach the exact one.
 template <height_sample Sample, executor Executor = serial>
 [[nodiscard]] status bake_neighborhood(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
@@ -201,12 +213,12 @@ template <height_sample Sample, executor Executor = serial>
     table.heights = scratch.carve<float>(plane_size(heights, around.reach));
     table.heights += around.reach.y * table.stride + around.reach.x;
     table.taps = scratch.carve<tap>(table.first.back());
-    fill(table, heights, around.reach);
+    if (status s = relief_detail::check(fill(table, heights, around.reach)); !s) return s;
     std::array<std::size_t, neighborhood_directions> next{};
     std::copy_n(table.first.begin(), next.size(), next.begin());
     around.marks([&](int n, int x, int y, double distance) {
-        const double inverse = (std::min)(heights.texel_size.x, heights.texel_size.y) / distance;
-        table.taps[next[std::size_t(n)]++] = {y * table.stride + x, float(inverse * inverse)};
+        const double inverse = relief_detail::smaller_side(heights.texel_size) / distance;
+        table.taps[next[std::size_t(n)]++] = {y * table.stride + x, float(inverse)};
     });
     constexpr int side = neighborhood_average / 2;
     for (const glm::dvec2& d : directions)

@@ -9,6 +9,7 @@
 #include <bumpshadow/finite.hpp>
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
+#include <bumpshadow/horizon/relief.hpp>
 #include <bumpshadow/horizon/sweep_lines.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
@@ -95,6 +96,7 @@ inline constexpr int margin = improved ? near_columns + 1 : 0;
 template <bool improved, height_sample Sample>
 [[nodiscard]] std::size_t scratch_size(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
                                        int concurrency) {
+    if (!check_grid(heights.extent, heights.texel_size)) return 0;
     scratch_layout layout;
     const auto add = [&]<class T>(T*&, std::size_t count) { layout.add<T>(count); };
     planes map{};
@@ -136,10 +138,10 @@ template <bool improved, height_sample Sample, class Executor>
     for (int i = 0; i < slot_pool::slots(concurrency, std::size_t(-1)); ++i) slots[i].arrays(side, heights.edge, carve);
 
     map.rows += margin<improved>;
-    // In units of the longer side of a texel nothing is too small or too large for floats but what slopes make.
-    const double length = (std::max)(heights.texel_size.x, heights.texel_size.y);
-    const glm::dvec2 texel_size = heights.texel_size / length;
-    map.gaps = fill(map, heights, length, margin<improved>) || heights.edge == edge_mode::open;
+    const glm::dvec2 texel_size = heights.texel_size / relief_detail::smaller_side(heights.texel_size);
+    relief_detail::height_range range;
+    map.gaps = fill(map, heights, margin<improved>, range) || heights.edge == edge_mode::open;
+    if (status s = relief_detail::check(range); !s) return s;
     map.floor = heights.edge == edge_mode::open ? minus_infinity : 0.0f;
 
     const rectangle region = region_or_all(options.region, heights.extent);
@@ -175,7 +177,8 @@ template <bool improved, height_sample Sample, class Executor>
 }  // namespace sweep_detail
 
 // Bytes of scratch of bake_sweep: 4 a texel of the map, 8 if any direction crosses more rows than columns, whatever the
-// number of directions; and for each unit of the executor's concurrency about 300 a texel of the longer side.
+// number of directions; and for each unit of the executor's concurrency about 300 a texel of the longer side. 0 where
+// check_grid() refuses the map.
 template <height_sample Sample, executor Executor = serial>
 [[nodiscard]] std::size_t sweep_scratch_size(const height_map<Sample>& heights, std::span<const glm::dvec2> directions,
                                              const bake_options& /*options*/ = {}, const Executor& execute = {}) {
@@ -198,8 +201,9 @@ template <height_sample Sample, executor Executor = serial>
 //   out: slopes, [direction][y][x], of the region's extent; signed where the edge is open, else never negative;
 //       no_horizon at holes and where an open map ends
 // Errors: what check_bake() and check_samples() find, a radius, curvature, distances or a build with -ffast-math
-// (not_supported), sides above 4194304 texels, scratch. On an error nothing is written. The result does not depend on
-// the executor, on the region or on the other directions, bit for bit. Accuracy: against bake_exact a mean error of
+// (not_supported), sides above 4194304 texels, heights more than 1e35 smaller texel sides above or below
+// reference_texel() (out_of_range), scratch. On an error nothing is written. The result does not depend on the
+// executor, on the region or on the other directions, bit for bit. Accuracy: against bake_exact a mean error of
 // elevation of 0.01 to 0.03 degrees (99th percentile 0.2 to 0.7) on five real maps of 256 to 1024 texels a side, 16
 // directions. Over endless maps (repeat, mirror) occluders count up to one length of the map beyond it, or 256 texels
 // if that is more.

@@ -9,6 +9,7 @@
 
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/height_map.hpp>
+#include <bumpshadow/horizon/relief.hpp>
 #include <bumpshadow/horizon_map.hpp>
 
 // The machinery of sweep.hpp: lines over a map, and the hulls of the heights along them.
@@ -63,9 +64,11 @@ struct slanted {
         std::swap(texel_size.x, texel_size.y);
     }
     double slant = d.y / d.x;
-    if (std::abs(slant) < 1e-12) slant = 0.0;
     if (std::abs(slant) > 1.0 - 1e-12) slant = slant < 0.0 ? -1.0 : 1.0;
-    return {along_y, d.x > 0.0, slant, std::hypot(texel_size.x, slant * texel_size.y)};
+    // Before the slant is rounded: where texels are very long a line that hardly leaves its row still goes far.
+    const double column_length = std::hypot(texel_size.x, slant * texel_size.y);
+    if (std::abs(slant) < 1e-12) slant = 0.0;
+    return {along_y, d.x > 0.0, slant, column_length};
 }
 
 // Where a line through row 0 of column 0 meets a column: between row_a and row_b, with this weight of row_b.
@@ -111,8 +114,7 @@ inline constexpr vertex hull_bottom{std::numeric_limits<float>::lowest(), minus_
     return top;
 }
 
-// Heights above the reference, in units of length, as floats, holes as NaN, row by row with a margin on both sides; and
-// column by column.
+// Heights as floats, see relief.hpp, holes as NaN, row by row with a margin on both sides; and column by column.
 struct planes {
     float* rows;
     std::ptrdiff_t row_stride;
@@ -124,22 +126,16 @@ struct planes {
     float floor;  // what horizons cannot be below
 };
 
+// True where there are holes.
 template <height_sample Sample>
-[[nodiscard]] inline bool fill(const planes& to, const height_map<Sample>& heights, double length, int margin) {
+[[nodiscard]] inline bool fill(const planes& to, const height_map<Sample>& heights, int margin,
+                               relief_detail::height_range& range) {
     constexpr float hole = std::numeric_limits<float>::quiet_NaN();
-    const double unit = unit_height(heights) / length, reference = reference_sample(heights);
+    const double unit = relief_detail::height_in_texels(heights), reference = reference_sample(heights);
     bool holes = false;
     for (int y = 0; y < to.extent.y; ++y) {
         float* const row = to.rows + y * to.row_stride;
-        const Sample* const samples = heights.samples + y * heights.row_stride;
-        for (int x = 0; x < to.extent.x; ++x) row[x] = float((double(samples[x]) - reference) * unit);
-        if (heights.no_data) {
-            for (int x = 0; x < to.extent.x; ++x) {
-                if (!is_no_data(heights, samples[x])) continue;
-                row[x] = hole;
-                holes = true;
-            }
-        }
+        if (relief_detail::copy_row(heights, y, reference, unit, hole, row, range)) holes = true;
         for (int i = 1; i <= margin; ++i) {
             const std::int64_t left = resolve_edge(-i, to.extent.x, to.edge);
             const std::int64_t right = resolve_edge(to.extent.x - 1 + i, to.extent.x, to.edge);

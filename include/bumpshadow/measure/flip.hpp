@@ -273,9 +273,10 @@ template <class Truth, class Result, class Executor>
 
 }  // namespace flip_detail
 
-// Bytes of scratch that flip takes, on an executor of that concurrency: O(width) a thread.
+// Bytes of scratch that flip takes, on an executor of that concurrency: O(width) a thread; 0 without pixels.
 [[nodiscard]] inline std::size_t flip_scratch_size(glm::ivec2 extent, const flip_options& options = {},
                                                    int concurrency = 1) {
+    if (extent.x <= 0 || extent.y <= 0) return 0;
     return flip_detail::scratch_bytes(extent, options.pixels_per_degree, concurrency);
 }
 

@@ -12,6 +12,7 @@
 #include <bumpshadow/height_bounds.hpp>
 #include <bumpshadow/height_map.hpp>
 #include <bumpshadow/horizon/exact.hpp>
+#include <bumpshadow/horizon/relief.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/scratch.hpp>
 #include <bumpshadow/status.hpp>
@@ -79,13 +80,13 @@ private:
         const std::int64_t cells = (row + 1) * count / rows - row * count / rows;
         for (std::int64_t cell = 0; cell < cells; ++cell) {
             const int x = draw(cell, cells, extent.x), y = draw(row, rows, extent.y);
-            texels[next++] = {(x + shift_x) % extent.x, (y + shift_y) % extent.y};
+            texels[next++] = {int((std::int64_t(x) + shift_x) % width), int((std::int64_t(y) + shift_y) % height)};
         }
     }
     return {};
 }
 
-// Bytes of scratch that sample_horizons takes.
+// Bytes of scratch that sample_horizons takes; 0 where check_grid() refuses the map.
 template <height_sample Sample>
 [[nodiscard]] std::size_t sample_scratch_size(const height_map<Sample>& heights) {
     return exact_scratch_size(heights);
@@ -97,7 +98,8 @@ template <height_sample Sample>
 //               holes among it
 //   options     radius, curvature, scratch and memory; the rest is ignored
 // Cost: a pass over the heights, then 1 to 3 microseconds a slope on real maps of 1024 x 1024 texels without a radius.
-// Errors: what check_request() and check_samples() find; no texels, texels outside the map, too few slopes; scratch.
+// Errors: what check_request() and check_samples() find, and relief as in bake_exact(); no texels, texels outside the
+// map, too few slopes; scratch.
 // Then nothing is written. The result does not depend on the executor, bit for bit.
 template <height_sample Sample, executor Executor = serial>
 [[nodiscard]] status sample_horizons(const height_map<Sample>& heights, std::span<const glm::ivec2> texels,
@@ -114,6 +116,7 @@ template <height_sample Sample, executor Executor = serial>
     if (status s = scratch.allocate(options, sample_scratch_size(heights), "a sample of horizons"); !s) return s;
     const std::size_t samples = height_bounds<Sample>::required_size(heights.extent);
     const height_bounds<Sample> bounds(heights, std::span<Sample>(scratch.carve<Sample>(samples), samples));
+    if (status s = relief_detail::check(heights, bounds); !s) return s;
 
     constexpr std::size_t chunk = 64;
     const std::size_t chunks = (count + chunk - 1) / chunk;
