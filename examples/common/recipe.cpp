@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -92,12 +91,8 @@ recipe_horizons bake_for(const height_samples& samples, const height_source& sou
         if (r.reduced_heights == 1) return bs::bake_cascade(map, h.directions, h.map, options, execute);
         if (bs::status s = check(map); !s) return s;
         std::vector<float> averaged(bs::required_size(extent, 1));
-        bs::average_heights(map, r.reduced_heights, extent, averaged.data());
-        bs::height_map<float> small = bs::tight_height_map<float>(averaged.data(), extent);
-        small.texel_size = map.texel_size * double(r.reduced_heights);
-        small.edge = map.edge;
-        if (map.no_data) small.no_data = std::numeric_limits<float>::quiet_NaN();
-        return bs::bake_cascade(small, h.directions, h.map, options, execute);
+        return bs::bake_cascade(bs::average_heights(map, r.reduced_heights, averaged.data()), h.directions, h.map,
+                                options, execute);
     }));
     return h;
 }

@@ -157,6 +157,50 @@ TEST_CASE("the same seed, the same recipe") {
     }
 }
 
+TEST_CASE("any unit of length") {
+    // By a power of two all is the same but what is a length.
+    const auto map = heap(64);
+    const auto in_double = shapes::sampled({64, 64}, [&](double x, double y) { return map.at(int(x), int(y)); });
+    // Averages of heights are among what is tried for pixels of many texels.
+    for (const double texels : {1.0, 8.0}) {
+        scene s = with_arc({0.0, 1.0, 10.0, 60.0}, 0.02);
+        s.texels_per_pixel = texels;
+        const recipe expected = planned(in_double.view(), s);
+        for (const double size : {0x1p400, 0x1p-400}) {
+            auto large = in_double;
+            for (double& h : large.samples) h *= size;
+            auto heights = large.view();
+            heights.texel_size *= size;
+            recipe r = planned(heights, s);
+            r.radius /= size;
+            CHECK(r.lines == expected.lines);
+            // Which are told with their lengths.
+            r.why = expected.why;
+            CHECK(is_same(r, expected));
+        }
+    }
+}
+
+TEST_CASE("averaged heights") {
+    auto map = shapes::sampled({5, 4}, [](double x, double y) { return 1e100 * (10.0 + x + 4.0 * y); });
+    map.at(2, 2) = map.at(3, 2) = map.at(2, 3) = map.at(3, 3) = map.at(0, 2) = -1.0;
+    auto heights = map.view(edge_mode::mirror);
+    heights.no_data = -1.0;
+    heights.height_scale = 3.0;
+    heights.texel_size = {2e100, 5e100};
+    float samples[4];
+    const height_map<float> small = average_heights(heights, 2, samples);
+    CHECK(small.extent == glm::ivec2(2, 2));
+    CHECK(small.edge == edge_mode::mirror);
+    CHECK(small.texel_size == glm::dvec2(4e100, 1e101));
+    REQUIRE(small.no_data.has_value());
+    // Above the first, of 4 texels (0 + 1 + 4 + 5) / 4 and (2 + 3 + 6 + 7) / 4; of 3 of them (9 + 12 + 13) / 3.
+    const double expected[] = {2.5, 4.5, 34.0 / 3.0};
+    for (int i = 0; i < 3; ++i)
+        CHECK(double(samples[i]) * unit_height(small) == doctest::Approx(3e100 * expected[i]).epsilon(1e-6));
+    CHECK(is_no_data(small, samples[3]));
+}
+
 TEST_CASE("every sample type") {
     const auto bytes = shapes::sampled<std::uint8_t>(
         {64, 64}, [map = heap(64)](double x, double y) { return std::round(16.0 * double(map.at(int(x), int(y)))); });

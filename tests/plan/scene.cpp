@@ -133,6 +133,10 @@ TEST_CASE("heights that cannot be planned for") {
     auto squashed = map.view();
     squashed.texel_size.y = 0.0;
     refused_map(squashed, error::not_positive, "texel_size.y");
+    squashed.texel_size.y = 1e300;
+    refused_map(squashed, error::out_of_range, "texel_size.y");
+    map.at(5, 3) = 1e36f;
+    refused_map(map.view(), error::out_of_range, "highest height above reference_texel(), in texels");
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         map.at(5, 3) = bad;
         refused_map(map.view(), error::not_finite, "height");

@@ -91,7 +91,7 @@ struct look {
     int patch;
     glm::vec2 direction;  // of unit length
     float horizon;        // a slope, not below 0; of the pixel's texels the mean
-    float reach;          // how far occluders of these lights are, at the most, in the unit of texel_size; 0: unknown
+    double reach;         // how far occluders of these lights are, at the most, in the unit of texel_size; 0: unknown
     float light[elevations];
     float lit[elevations];  // share of the pixel that is lit
 };
@@ -200,7 +200,7 @@ inline void choose_looks(const scene& s, const patches& all, const view& v, glm:
             measure_detail::generator shared = generator_of(seed, -2 - ray);
             const lamp light = choose_lamp(s, v, ray, place, baked ? shared : random, random);
             look& l = out[i * v.rays + ray];
-            l = {middle, patch, glm::vec2(light.direction), 0.0f, 0.0f, {}, {}};
+            l = {middle, patch, glm::vec2(light.direction), 0.0f, 0.0, {}, {}};
             for (int e = 0; e < v.lights; ++e) l.light[e] = float(light.slopes[e]);
         }
     }
@@ -223,7 +223,7 @@ void ask_exact(const height_map<Sample>& heights, const height_bounds<Sample>& b
             const auto [slope, distance] = rays(corner + glm::ivec2(x, y));
             e.add(v, l, slope);
             for (int i = 0; i < v.lights; ++i)
-                if (double(l.light[i]) < slope) l.reach = (std::max)(l.reach, float(distance));
+                if (double(l.light[i]) < slope) l.reach = (std::max)(l.reach, distance);
         }
     e.write(v, l);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdio>
@@ -122,12 +123,16 @@ struct recipe {
     }
 }
 
-// Heights averaged over squares, as reduced_heights says; holes count for nothing, and squares of holes alone are NaN.
-//   extent: of the result, reduced_extent(): where it is no multiple, the last rows and columns of `from` are in none
-//   out: [y][x], tight, in the unit of texel_size, above the map's reference
+// Heights averaged over squares, as reduced_heights says, in the unit of texel_size, above the map's reference; holes
+// count for nothing, and squares of holes alone are NaN, the result's no_data. Its extent is reduced_extent(): where
+// that is no multiple, the last rows and columns of `from` are in none.
+//   out: [y][x], tight, where the result's samples go: in smaller sides of `from`'s texels, so that any unit fits
+//   floats
 template <height_sample Sample>
-void average_heights(const height_map<Sample>& from, int side, glm::ivec2 extent, float* out) {
-    const double unit = unit_height(from), reference = reference_sample(from);
+[[nodiscard]] height_map<float> average_heights(const height_map<Sample>& from, int side, float* out) {
+    const glm::ivec2 extent = reduced_extent(from.extent, side);
+    const double length = (std::min)(from.texel_size.x, from.texel_size.y), unit = unit_height(from) / length;
+    const double reference = reference_sample(from), most = double((std::numeric_limits<float>::max)());
     for (int y = 0; y < extent.y; ++y)
         for (int x = 0; x < extent.x; ++x) {
             double sum = 0.0;
@@ -140,8 +145,15 @@ void average_heights(const height_map<Sample>& from, int side, glm::ivec2 extent
                     ++count;
                 }
             out[std::size_t(y) * std::size_t(extent.x) + std::size_t(x)] =
-                count > 0 ? float(unit * sum / count) : std::numeric_limits<float>::quiet_NaN();
+                count > 0 ? float((std::clamp)(unit * (sum / count), -most, most))
+                          : std::numeric_limits<float>::quiet_NaN();
         }
+    height_map<float> map = tight_height_map<float>(out, extent);
+    map.height_scale = length;
+    map.texel_size = from.texel_size * double(side);
+    map.edge = from.edge;
+    if (from.no_data) map.no_data = std::numeric_limits<float>::quiet_NaN();
+    return map;
 }
 
 // Extent that horizons are baked at, of a height map of this extent; texels.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory_resource>
 #include <span>
 #include <utility>
@@ -96,13 +95,7 @@ struct workshop {
                               double& seconds) {
         const int by = some.front().reduced_heights;
         if (by == 1) return bake_patches(heights, some, in, options, seconds);
-        const glm::ivec2 extent = reduced_extent(heights.extent, by);
-        average_heights(heights, by, extent, averaged);
-        height_map<float> map = tight_height_map<float>(averaged, extent);
-        map.texel_size = heights.texel_size * double(by);
-        map.edge = heights.edge;
-        if (heights.no_data) map.no_data = std::numeric_limits<float>::quiet_NaN();
-        return bake_patches(map, some, in, options, seconds);
+        return bake_patches(average_heights(heights, by, averaged), some, in, options, seconds);
     }
 
     // A variant's horizons in other directions: where bake() may put them.
@@ -195,7 +188,7 @@ private:
         for (const look& l : looks)
             for (int e = 0; e < view.lights; ++e) {
                 shadowed += (1.0 - double(l.lit[e])) / (double(looks.size()) * view.lights);
-                reach = (std::max)(reach, double(l.reach));
+                reach = (std::max)(reach, l.reach);
             }
         return {};
     }
