@@ -103,6 +103,30 @@ std::vector<stiff_case> shapes() {
         plain("plateaus", [](int x, int y) { return std::floor(waves(x, y)); }, {{sweep, {0.11, 2.8}, between}}));
     all.push_back(plain("8-bit stairs",
                         [](int x, int y) { return std::round((waves(x, y) + 6.0) / 12.0 * 255.0) / 255.0 * 12.0; }));
+    all.push_back({"8-bit stairs, in bytes", [] {
+                       stiff_map map =
+                           made([](int x, int y) { return std::round((waves(x, y) + 6.0) / 12.0 * 255.0) / 255.0; });
+                       map.height_scale = 12.0;
+                       map.as_bytes = true;
+                       return map;
+                   }});
+    return all;
+}
+
+// Where a stiff surface meets its reflection, or ends.
+std::vector<stiff_case> borders() {
+    std::vector<stiff_case> all;
+    for (const edge_mode edge : {edge_mode::mirror, edge_mode::open}) {
+        const std::string text = edge == edge_mode::mirror ? ", mirrored" : ", open";
+        all.push_back({"cliff, 10^6 texels" + text, [=] { return with(scaled(made(cliff), 1e6), edge); }});
+        all.push_back({"pit, 10^6 texels" + text, [=] { return with(scaled(made(spike), -1e6), edge); }});
+        all.push_back({"checkerboard, 1000 texels" + text, [=] {
+                           return with(scaled(made([](int x, int y) { return double((x + y) % 2); }), 1000.0), edge);
+                       }});
+        all.push_back({"steep sawtooth, 5 texels" + text,
+                       [=] { return with(made([](int x, int) { return 3.0 * (x % 5); }), edge); },
+                       {{cascade, {1.2, 20.0}, narrow}, {fine, {0.29, 6.0}, narrow}, {sweep, {0.34, 7.8}, between}}});
+    }
     return all;
 }
 
@@ -178,7 +202,7 @@ std::vector<stiff_case> bases() {
 
 std::vector<stiff_case> all_cases() {
     std::vector<stiff_case> all = shapes();
-    for (const auto& more : {offsets(), scales(), bases()}) all.insert(all.end(), more.begin(), more.end());
+    for (const auto& more : {borders(), offsets(), scales(), bases()}) all.insert(all.end(), more.begin(), more.end());
     return all;
 }
 

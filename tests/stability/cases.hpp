@@ -13,7 +13,7 @@
 namespace stability {
 
 // A height field that is hard on some method. Heights are made in double, which is what exact gets; the fast methods
-// get them as float unless `as_double`.
+// get them as float unless `as_double` or `as_bytes`.
 struct stiff_map {
     std::vector<double> heights;  // [y][x], before the scale
     glm::ivec2 extent{0};
@@ -22,6 +22,7 @@ struct stiff_map {
     bumpshadow::edge_mode edge = bumpshadow::edge_mode::repeat;
     bumpshadow::bake_options options = {};  // radius and curvature
     bool as_double = false;
+    bool as_bytes = false;  // heights before the scale are multiples of 1/255 from 0 to 1
     // Slopes are divided by this before they become angles, where all would be 90 degrees otherwise.
     double slope_unit = 1.0;
 };

@@ -128,12 +128,16 @@ private:
         const double unit = bs::unit_height(heights_);
         for (const glm::ivec2 p : texels_) {
             const auto slope = [&](glm::ivec2 step, double spacing) {
+                int span = 0;
                 const auto at = [&](glm::ivec2 q) {
                     const auto x = bs::resolve_edge(q.x, map_.extent.x, heights_.edge);
                     const auto y = bs::resolve_edge(q.y, map_.extent.y, heights_.edge);
+                    if (x < 0 || y < 0) return double(bs::sample_at(heights_, p.x, p.y));
+                    ++span;
                     return double(bs::sample_at(heights_, x, y));
                 };
-                return (at(p + step) - at(p - step)) / (2.0 * spacing) * unit;
+                const double rise = at(p + step) - at(p - step);
+                return rise / (span * spacing) * unit;
             };
             const double x = slope({1, 0}, heights_.texel_size.x), y = slope({0, 1}, heights_.texel_size.y);
             // Slopes whose squares overflow are all alike.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <numbers>
 #include <span>
@@ -78,6 +79,11 @@ public:
 
     result operator()(method which) const {
         if (map_.as_double) return bake(which, view(map_, map_.heights));
+        if (map_.as_bytes) {
+            std::vector<std::uint8_t> bytes;
+            for (const double h : map_.heights) bytes.push_back(std::uint8_t(std::round(255.0 * h)));
+            return bake(which, view(map_, bytes));
+        }
         const std::vector<float> samples(map_.heights.begin(), map_.heights.end());
         return bake(which, view(map_, samples));
     }
