@@ -164,26 +164,16 @@ void describe(const request& r, const height_map<Sample>& heights) {
     std::fprintf(stderr, " ...\n");
 }
 
-// True where slopes are far from the limits of float: what the methods promise to be finite.
+// True where the slopes of the base are far from the limits of float. Those of heights always are where a bake is not
+// refused.
 template <height_sample Sample>
 bool is_moderate(const request& r, const height_map<Sample>& heights) {
     constexpr double most = 1e15;
     const bake_options& o = r.options;
-    const double small = std::min(heights.texel_size.x, heights.texel_size.y),
-                 large = std::max(heights.texel_size.x, heights.texel_size.y),
+    const double large = std::max(heights.texel_size.x, heights.texel_size.y),
                  bend = std::max(std::abs(o.curvature.x), std::abs(o.curvature.y));
-    double lowest = std::numeric_limits<double>::max(), highest = -lowest;
-    for (int y = 0; y < heights.extent.y; ++y)
-        for (int x = 0; x < heights.extent.x; ++x) {
-            const Sample sample = sample_at(heights, x, y);
-            if (is_no_data(heights, sample)) continue;
-            lowest = std::min(lowest, double(sample));
-            highest = std::max(highest, double(sample));
-        }
-    const double relief = highest > lowest ? (highest - lowest) * std::abs(unit_height(heights)) : 0.0;
     const double farthest = bend == 0.0 ? 0.0 : is_finite(o.radius) ? o.radius : 1e6 * large;
-    return relief <= most * small && std::abs(unit_height(heights)) <= 1e30 * small && large <= most * small &&
-           bend * std::max(farthest, large) <= most && small > 1e-250 && large < 1e250;
+    return bend * std::max(farthest, large) <= most;
 }
 
 // Bakes twice, in both orders and over scratch memory that held ones and zeros.
