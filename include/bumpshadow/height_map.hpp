@@ -82,7 +82,7 @@ template <height_sample Sample>
         return heights.height_scale;
 }
 
-// Index of the texel that stands in for index i on an axis of n texels, or -1 where there is none (open).
+// Index of the texel that stands in for index i on an axis of n texels, n > 0, or -1 where there is none (open).
 [[nodiscard]] constexpr std::int64_t resolve_edge(std::int64_t i, std::int64_t n, edge_mode edge) {
     if (i >= 0 && i < n) return i;
     switch (edge) {
