@@ -8,6 +8,7 @@
 #include <span>
 
 #include <bumpshadow/config.hpp>
+#include <bumpshadow/finite.hpp>
 
 namespace bumpshadow {
 
@@ -52,7 +53,7 @@ struct error_figures {
     error_figures figures;
     double sizes = 0.0, sum = 0.0, squares = 0.0;
     for (const double e : errors) {
-        if (std::isnan(e)) continue;
+        if (is_nan(e)) continue;
         ++figures.count;
         sizes += std::abs(e);
         sum += e;
@@ -72,7 +73,7 @@ struct error_figures {
     for (std::size_t first = 0; first < errors.size(); first += step) {
         double size = 0.0, number = 0.0;
         for (const double e : errors.subspan(first, (std::min)(step, errors.size() - first))) {
-            if (std::isnan(e)) continue;
+            if (is_nan(e)) continue;
             size += std::abs(e);
             number += 1.0;
         }
@@ -80,11 +81,11 @@ struct error_figures {
         texels += 1.0;
         deviations += (size - figures.mean * number) * (size - figures.mean * number);
     }
-    figures.interval = texels < 2.0 || !std::isfinite(figures.mean)
+    figures.interval = texels < 2.0 || !is_finite(figures.mean)
                            ? std::numeric_limits<double>::infinity()
                            : standard_errors_95(texels - 1.0) * std::sqrt(texels / (texels - 1.0) * deviations) / count;
 
-    const auto counted = std::remove_if(errors.begin(), errors.end(), [](double e) { return std::isnan(e); });
+    const auto counted = std::remove_if(errors.begin(), errors.end(), [](double e) { return is_nan(e); });
     for (auto e = errors.begin(); e != counted; ++e) *e = std::abs(*e);
     const auto rank = errors.begin() + std::ptrdiff_t((99 * figures.count + 99) / 100 - 1);
     std::nth_element(errors.begin(), rank, counted);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <bumpshadow/executor.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/measure/flip_filters.hpp>
 #include <bumpshadow/pixels.hpp>
@@ -320,7 +321,7 @@ template <executor Executor = serial>
     for (const rgb_image* image : {&truth, &result})
         for (int y = 0; y < truth.extent.y; ++y)
             for (int i = 0; i < 3 * truth.extent.x; ++i)
-                if (const float v = image->row(y)[i]; !std::isfinite(v))
+                if (const float v = image->row(y)[i]; !is_finite(v))
                     return {error::not_finite, "image", double(v), 0.0, {i / 3, y}};
     const auto color = [](const rgb_image& of) {
         return [&of](int x, int y) {

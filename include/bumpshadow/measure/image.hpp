@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/pixels.hpp>
 #include <bumpshadow/reference/lighting.hpp>
 #include <bumpshadow/status.hpp>
@@ -73,8 +74,8 @@ struct difference_sum {
         const float *a = truth.row(y), *b = result.row(y);
         for (int i = 0; i < 3 * truth.extent.x; ++i) {
             const double difference = double(b[i]) - double(a[i]);
-            if (!std::isfinite(difference))
-                return {error::not_finite, "image", std::isfinite(a[i]) ? double(b[i]) : double(a[i]), 0.0, {i / 3, y}};
+            if (!is_finite(difference))
+                return {error::not_finite, "image", is_finite(a[i]) ? double(b[i]) : double(a[i]), 0.0, {i / 3, y}};
             sum.add(difference);
         }
     }
@@ -92,8 +93,8 @@ struct difference_sum {
     measure_detail::difference_sum sum;
     for (std::size_t i = 0; i < truth.size(); ++i) {
         const double difference = double(result[i]) - double(truth[i]);
-        if (!std::isfinite(difference))
-            return {error::not_finite, "image", std::isfinite(truth[i]) ? double(result[i]) : double(truth[i])};
+        if (!is_finite(difference))
+            return {error::not_finite, "image", is_finite(truth[i]) ? double(result[i]) : double(truth[i])};
         sum.add(difference);
     }
     figures = sum.figures(peak);

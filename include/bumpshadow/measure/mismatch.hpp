@@ -6,6 +6,7 @@
 #include <numbers>
 #include <span>
 
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/measure/elevation.hpp>
 #include <bumpshadow/measure/figures.hpp>
@@ -71,7 +72,7 @@ struct mismatch_counts {
         return {error::out_of_range, "lights.elevations", double(lights.elevations.size()), double(most_elevations)};
     for (const glm::dvec2& d : lights.directions) {
         const double length = std::hypot(d.x, d.y);
-        if (!std::isfinite(length)) return {error::not_finite, "length of a light's direction", length};
+        if (!is_finite(length)) return {error::not_finite, "length of a light's direction", length};
         if (!(length > 0.0)) return {error::not_positive, "length of a light's direction", length};
     }
     for (const double e : lights.elevations)
