@@ -162,7 +162,7 @@ struct job {
 
     // pack(levels, directions, options, textures) with the timing and report of all encodings.
     template <class Pack>
-    void pack(const std::vector<horizons>& levels, std::vector<bs::texture_layout> layouts, bs::slice_fit fit,
+    void pack(const std::vector<horizons>& levels, const std::vector<bs::texture_layout>& layouts, bs::slice_fit fit,
               const Pack& pack) const {
         std::vector<bs::horizon_map> maps;
         for (const horizons& h : levels) maps.push_back(h.map);

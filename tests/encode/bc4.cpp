@@ -190,8 +190,9 @@ TEST_CASE("hardly ever worse than ends at the extremes, and close to the best of
         const double base = random.uniform(), gx = 0.2 * random.uniform(), gy = 0.2 * random.uniform() - 0.1;
         const int kind = trial % 4;
         for (int t = 0; t < 16; ++t) {
-            double v = base + gx * (t % 4) + gy * (t / 4);
-            if (kind == 1 && t % 4 > t / 4) v = 0.3 * v;
+            const int x = t % 4, y = t / 4;
+            double v = base + gx * x + gy * y;
+            if (kind == 1 && x > y) v = 0.3 * v;
             if (kind == 2 && random.uniform() < 0.4) v = 0.0;
             if (kind == 3) v = random.uniform();
             values[t] = float(std::clamp(v, 0.0, 1.0));

@@ -26,8 +26,10 @@ TEST_CASE("blocks of stb_dxt: one channel, read back, and no better than our own
     for (int trial = 0; trial < 200; ++trial) {
         float values[16], found[16];
         const double base = random.uniform(), slope = 0.3 * random.uniform();
-        for (int t = 0; t < 16; ++t)
-            values[t] = float(std::clamp(base + slope * (t % 4) - 0.5 * slope * (t / 4), 0.0, 1.0));
+        for (int t = 0; t < 16; ++t) {
+            const int x = t % 4, y = t / 4;
+            values[t] = float(std::clamp(base + slope * x - 0.5 * slope * y, 0.0, 1.0));
+        }
         std::byte block[8];
         const auto error = [&] {
             decode_bc4(block, found);

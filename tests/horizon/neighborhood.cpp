@@ -70,7 +70,7 @@ std::vector<double> all_directions(const field& map, int x, int y, const bake_op
 }
 
 // Checks the 32 averages against a list of the directions that are marked, all with the same sine.
-void check_marked(const std::vector<double>& found, std::vector<int> marked, double sine) {
+void check_marked(const std::vector<double>& found, const std::vector<int>& marked, double sine) {
     for (int n = 0; n < 32; ++n) {
         CAPTURE(n);
         int hits = 0;

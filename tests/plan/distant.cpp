@@ -27,8 +27,9 @@ TEST_CASE("places of a pixel: the middles of its parts, row by row") {
     for (int taps = 1; taps <= 64; ++taps)
         for (int i = 0; i < taps * taps; ++i) {
             const glm::vec2 at = tap_offset(i, taps);
-            CHECK(std::abs(double(at.x) - ((i % taps + 0.5) / taps - 0.5)) < 1e-6);
-            CHECK(std::abs(double(at.y) - ((i / taps + 0.5) / taps - 0.5)) < 1e-6);
+            const int column = i % taps, row = i / taps;
+            CHECK(std::abs(double(at.x) - ((column + 0.5) / taps - 0.5)) < 1e-6);
+            CHECK(std::abs(double(at.y) - ((row + 0.5) / taps - 0.5)) < 1e-6);
         }
 }
 
