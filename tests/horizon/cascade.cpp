@@ -666,6 +666,7 @@ namespace {
 int differing(const slopes& a, const slopes& b) {
     REQUIRE(a.size() == b.size());
     int count = 0;
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bit for bit
     for (std::size_t i = 0; i < a.size(); ++i) count += std::memcmp(&a[i], &b[i], sizeof(float)) != 0;
     return count;
 }
