@@ -77,7 +77,8 @@ struct bake_options {
     // Texels to bake; the output has this extent. Empty: the whole map.
     rectangle region = {};
     // Where distances to the occluders go, in the unit of texel_size; 0 where the surface at the texel itself is the
-    // horizon, infinity where the horizon is infinitely far or absent. Extent and bearings as the slopes. Optional.
+    // horizon (or nearer than a float holds), infinity where the horizon is absent, infinitely far or farther than a
+    // float holds. Extent and bearings as the slopes. Optional.
     horizon_map distances = {};
     // Where scratch memory comes from: this span if it is not empty (see the method's scratch size), else the resource.
     std::span<std::byte> scratch = {};
