@@ -149,7 +149,7 @@ TEST_CASE("migration: green of a normal map") {
     // Ground that falls by 3/4 a row faces down in the picture: normal (0, 0.6, 0.8).
     const glm::ivec2 extent{5, 5};
     std::vector<float> heights, planes(75);
-    for (std::size_t i = 0; i < 25; ++i) heights.push_back(-0.75f * float(i / 5));
+    for (int y = 0; y < 5; ++y) heights.insert(heights.end(), 5, -0.75f * float(y));
     const normal_map normals{.values = planes, .extent = extent};
     REQUIRE(bake_normals(tight_height_map(heights.data(), extent), normals));
     for (const auto& [y, green] : {std::pair{normal_y::down, 204}, std::pair{normal_y::up, 51}}) {

@@ -63,7 +63,7 @@ std::string json_of(const bs::horizon_scale& scale) {
     return text("\"stored\":\"%s\",\"max_slope\":%s,", name_of(scale.stored), number(double(scale.max_slope)).c_str());
 }
 std::string json_of(const bs::tangent_volume& e) {
-    const std::string common = "\"encoding\":\"tangent\"," + json_of(e.slices) + json_of(e.scale);
+    std::string common = "\"encoding\":\"tangent\"," + json_of(e.slices) + json_of(e.scale);
     if (e.kind == bs::texture_kind::flat) return common;
     if (!bs::is_arc(e.slices)) return common + text("\"coordinate_offset\":%.9g,", coordinate_offset(e));
     const bs::arc_coordinate c = arc_coordinate_of(e);

@@ -199,7 +199,8 @@ TEST_CASE("over an arc: the least error of the elevation is less than that of le
                     const double is = std::atan(std::max(0.0, double(map.at(j, x, 0)))) / (0.5 * std::numbers::pi);
                     sum += std::abs(here + (position - i) * (next - here) - is);
                 }
-            return sum / width / (many / 2 + 1);
+            const int looked_at = many / 2 + 1;
+            return sum / width / looked_at;
         };
         CHECK(mean_miss(slice_fit::least_angle) < 0.99 * mean_miss(slice_fit::least_squares));
     }
