@@ -53,7 +53,8 @@ TEST_CASE("packs lane by lane") {
     CHECK(stored(simd::add(a, b)) == each([&](int i) { return value(i) + other(i); }));
     CHECK(stored(simd::subtract(a, b)) == each([&](int i) { return value(i) - other(i); }));
     CHECK(stored(simd::multiply(a, b)) == each([&](int i) { return value(i) * other(i); }));
-    CHECK(stored(simd::divide(a, simd::splat(8.0f))) == each([&](int i) { return value(i) / 8.0f; }));
+    for (const float by : {8.0f, 3.0f, 49.0f, 1e-3f})
+        CHECK(stored(simd::divide(a, simd::splat(by))) == each([&](int i) { return value(i) / by; }));
     CHECK(stored(simd::multiply_add(a, b, simd::splat(3.0f))) ==
           each([&](int i) { return value(i) * other(i) + 3.0f; }));
     CHECK(stored(simd::larger(a, b)) == each([&](int i) { return std::fmax(value(i), other(i)); }));

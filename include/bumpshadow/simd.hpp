@@ -44,7 +44,12 @@ inline pack splat(float a) { return pack(a); }
 inline pack add(pack a, pack b) { return a + b; }
 inline pack subtract(pack a, pack b) { return a - b; }
 inline pack multiply(pack a, pack b) { return a * b; }
+// On Arm xsimd multiplies by an estimate of the inverse; every other quotient is the nearest float.
+#if defined(__aarch64__)
+inline pack divide(pack a, pack b) { return pack(vdivq_f32(a, b)); }
+#else
 inline pack divide(pack a, pack b) { return a / b; }
+#endif
 inline pack multiply_add(pack a, pack b, pack c) { return xsimd::fma(a, b, c); }
 // GCC 12 warns of a value that AVX-512 leaves undefined on purpose.
 #if defined(__GNUC__) && !defined(__clang__)
