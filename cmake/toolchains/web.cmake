@@ -9,4 +9,8 @@ set(CMAKE_EXE_LINKER_FLAGS_INIT "-sNODERAWFS=1 -sSINGLE_FILE=1 -sALLOW_MEMORY_GR
 set(CMAKE_CXX_FLAGS_INIT "-fexceptions -msimd128 -isystem \"${CMAKE_CURRENT_LIST_DIR}/web\"")
 include("${root}/cmake/Modules/Platform/Emscripten.cmake")
 set(CMAKE_CROSSCOMPILING_EMULATOR node)
+# Where Debian keeps the modules of Node that its Emscripten links with.
+if(EXISTS /usr/share/nodejs)
+    set(CMAKE_CXX_LINKER_LAUNCHER "${CMAKE_COMMAND}" -E env "NODE_PATH=/usr/share/nodejs:$ENV{NODE_PATH}")
+endif()
 include("${CMAKE_CURRENT_LIST_DIR}/packages.cmake")
