@@ -7,4 +7,4 @@
 #include "everything.hpp"
 
 // The consumer, who gets the same results.
-#include "../consumer/main.cpp"
+#include "../consumer/main.cpp"  // NOLINT(bugprone-suspicious-include): its main is the test
