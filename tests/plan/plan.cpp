@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
+#include <new>
 #include <string_view>
 #include <vector>
 
@@ -133,7 +134,13 @@ public:
 
 private:
     void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-        if (calls++ == fails_) return std::pmr::null_memory_resource()->allocate(bytes, alignment);
+        if (calls++ == fails_) {
+#if defined(__cpp_exceptions)
+            throw std::bad_alloc();
+#else
+            return nullptr;
+#endif
+        }
         out += bytes;
         most = std::max(most, out);
         return std::pmr::new_delete_resource()->allocate(bytes, alignment);
