@@ -9,43 +9,18 @@
 
 #include <bumpshadow/executor.hpp>
 
+#include "support/counting.hpp"
+
 using namespace bumpshadow;
 
 namespace {
-
-// Hands out `limit` bytes and counts what is out.
-class counting_resource final : public std::pmr::memory_resource {
-public:
-    std::size_t limit = SIZE_MAX;
-    std::size_t out = 0;
-    int calls = 0;
-
-private:
-    void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-        ++calls;
-        if (bytes > limit) {
-#if defined(__cpp_exceptions)
-            throw std::bad_alloc();
-#else
-            return nullptr;
-#endif
-        }
-        out += bytes;
-        return std::pmr::new_delete_resource()->allocate(bytes, alignment);
-    }
-    void do_deallocate(void* p, std::size_t bytes, std::size_t alignment) override {
-        out -= bytes;
-        std::pmr::new_delete_resource()->deallocate(p, bytes, alignment);
-    }
-    bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-};
 
 bool aligned(const void* p) { return reinterpret_cast<std::uintptr_t>(p) % scratch_alignment == 0; }
 
 }  // namespace
 
 TEST_CASE("a scratch block comes from the resource in one piece and goes back") {
-    counting_resource memory;
+    counting memory;
     bake_options options;
     options.memory = &memory;
     {
@@ -63,8 +38,7 @@ TEST_CASE("a scratch block comes from the resource in one piece and goes back") 
 }
 
 TEST_CASE("a scratch block reports that memory ran out") {
-    counting_resource memory;
-    memory.limit = 100;
+    counting memory(0);
     bake_options options;
     options.memory = &memory;
     scratch_block block;

@@ -7,13 +7,14 @@
 #include <cstring>
 #include <functional>
 #include <memory_resource>
-#include <new>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/status.hpp>
+
+#include "support/counting.hpp"
 
 namespace faults {
 
@@ -32,36 +33,6 @@ struct any_executor {
     void operator()(std::size_t count, Body&& body) const {
         run(count, [&](std::size_t i) { body(i); });
     }
-};
-
-// Counts what is out, and has nothing left from call `fails` on.
-class counting : public std::pmr::memory_resource {
-public:
-    explicit counting(int fails = -1) : fails_(fails) {}
-    std::size_t out = 0;
-    int calls = 0;
-
-private:
-    void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-        if (calls++ == fails_) {
-#if defined(__cpp_exceptions)
-            throw std::bad_alloc();
-#else
-            return nullptr;
-#endif
-        }
-        void* const block = std::pmr::new_delete_resource()->allocate(bytes, alignment);
-        std::memset(block, 0xff, bytes);
-        out += bytes;
-        return block;
-    }
-    void do_deallocate(void* block, std::size_t bytes, std::size_t alignment) override {
-        out -= bytes;
-        std::pmr::new_delete_resource()->deallocate(block, bytes, alignment);
-    }
-    [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-
-    int fails_;
 };
 
 // All that a producer writes.

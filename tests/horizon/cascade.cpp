@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <memory_resource>
-#include <new>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +13,7 @@
 
 #include <bumpshadow/horizon/exact.hpp>
 
+#include "support/counting.hpp"
 #include "support/executors.hpp"
 #include "support/shapes.hpp"
 
@@ -881,41 +880,6 @@ TEST_CASE("cascade: twice the heights, twice the slopes") {
 
 // ---- Memory and errors ----
 
-namespace {
-
-class no_memory : public std::pmr::memory_resource {
-    void* do_allocate(std::size_t, std::size_t) override {
-#if defined(__cpp_exceptions)
-        throw std::bad_alloc();
-#else
-        return nullptr;
-#endif
-    }
-    void do_deallocate(void*, std::size_t, std::size_t) override {}
-    bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
-};
-
-// Knows what was taken from it.
-class counting : public std::pmr::memory_resource {
-public:
-    std::size_t held = 0, peak = 0, blocks = 0;
-
-private:
-    void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-        held += bytes;
-        peak = (std::max)(peak, held);
-        ++blocks;
-        return std::pmr::new_delete_resource()->allocate(bytes, alignment);
-    }
-    void do_deallocate(void* block, std::size_t bytes, std::size_t alignment) override {
-        held -= bytes;
-        std::pmr::new_delete_resource()->deallocate(block, bytes, alignment);
-    }
-    bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
-};
-
-}  // namespace
-
 TEST_CASE("cascade: scratch") {
     const list directions = many_directions();
     const threads three(3);
@@ -958,15 +922,15 @@ TEST_CASE("cascade: memory comes from the resource in one block that grows with 
         bake_options options = usual;
         options.memory = &memory;
         (void)baked(map.view(), shapes::directions(count), options);
-        CHECK(memory.blocks == 1);
-        CHECK(memory.held == 0);
-        peak[i++] = memory.peak;
+        CHECK(memory.calls == 1);
+        CHECK(memory.out == 0);
+        peak[i++] = memory.most;
     }
     CHECK(peak[0] == peak[1]);
     CHECK(peak[0] <= cascade_scratch_size(hard({256, 256}, 30).view(), usual));
     CHECK(peak[0] <= 256 * 256 * 100);
 
-    no_memory none;
+    counting none(0);
     const auto map = hard({30, 30}, 31);
     bake_options options = usual;
     options.memory = &none;

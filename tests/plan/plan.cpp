@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
-#include <new>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include <bumpshadow/measure/sample.hpp>
 
 #include "plan/maps.hpp"
+#include "support/counting.hpp"
 
 using namespace bumpshadow;
 using namespace plans;
@@ -124,35 +124,6 @@ bool is_same(const recipe& a, const recipe& b) {
                           return std::string_view(v.text) == std::string_view(w.text);
                       });
 }
-
-// Counts what is out, and has nothing left from call `fails` on.
-class counting : public std::pmr::memory_resource {
-public:
-    explicit counting(int fails = -1) : fails_(fails) {}
-    std::size_t out = 0, most = 0;
-    int calls = 0;
-
-private:
-    void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-        if (calls++ == fails_) {
-#if defined(__cpp_exceptions)
-            throw std::bad_alloc();
-#else
-            return nullptr;
-#endif
-        }
-        out += bytes;
-        most = std::max(most, out);
-        return std::pmr::new_delete_resource()->allocate(bytes, alignment);
-    }
-    void do_deallocate(void* block, std::size_t bytes, std::size_t alignment) override {
-        out -= bytes;
-        std::pmr::new_delete_resource()->deallocate(block, bytes, alignment);
-    }
-    [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-
-    int fails_;
-};
 
 }  // namespace
 
