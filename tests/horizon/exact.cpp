@@ -635,6 +635,22 @@ TEST_CASE("rays over a hollow base come to an end at any radius") {
             }
 }
 
+TEST_CASE("the least of hollow bases is as soon at its end as any") {
+    // Flat: the farthest point is the highest, at 1e15 texels. A walk that does not jump there takes minutes.
+    const field<double> map{{5, 3}, std::vector<double>(15, 7.0)};
+    const glm::dvec2 directions[] = {{1.0, 0.0}, {-3.3e-9, 1.0}, {1.0, 0.3}};
+    for (const edge_mode edge : {edge_mode::repeat, edge_mode::mirror, edge_mode::clamp})
+        for (const glm::dvec2 d : directions)
+            for (const double k : {1e-323, 1e-320, 1.1e-317, 1e-308, 1e-304, 1e-290}) {
+                CAPTURE(int(edge));
+                CAPTURE(d.x);
+                CAPTURE(k);
+                const double slope = exact_horizon(map.view(edge), {3, 1}, d, 1e300, glm::dvec2(-k)).slope;
+                const double reach = std::hypot(d.x, d.y) / std::max(std::abs(d.x), std::abs(d.y));
+                CHECK(near(slope, 0.5 * k * 1e15 * reach, 1e-6 * slope + 5e-324 * 1e15));
+            }
+}
+
 TEST_CASE("symmetries of the map are symmetries of its horizons") {
     shapes::noise source(6);
     const glm::ivec2 extent(12, 7);

@@ -170,6 +170,11 @@ public:
         const int drift = int(std::ceil(std::abs(found.at.tangent) * rows_together));
         stride_ = found.at.count + (drift + 2 * simd::width) / simd::width * simd::width;
         made_ = (std::min)(row_on(row_, 0), row_on(row_, count_ - 1));
+        // Lanes of the level below that only fill a pack may have their parents before the first and after the last.
+        if constexpr (Holes) {
+            std::fill_n(found.a - simd::width, simd::width, hole);
+            std::fill_n(found.a + std::ptrdiff_t(found.at.rows) * found.at.count, simd::width, hole);
+        }
     }
 
     // Goes on up to row `end`, or to the last.

@@ -257,7 +257,7 @@ private:
             if (!of.starts_at_zero_ && limit > 1.0 && (limit < farthest || of.bend_ < 0.0)) {
                 const double a = std::nextafter(limit, 0.0);
                 cell(std::int64_t(a), minor_cell(a), a, limit);
-                best -= 1e-11 * std::abs(best) + (std::numeric_limits<double>::min)();
+                best -= best == 0.0 ? (std::numeric_limits<double>::min)() : 1e-11 * std::abs(best);
                 slope_there = best;
             }
             const double never = (std::numeric_limits<double>::max)();
