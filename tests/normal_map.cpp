@@ -2,8 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -13,6 +15,7 @@
 #include <glm/ext/vector_double3.hpp>
 #include <glm/geometric.hpp>
 
+#include "support/reserved.hpp"
 #include "support/shapes.hpp"
 
 using namespace bumpshadow;
@@ -183,6 +186,43 @@ TEST_CASE("bytes back to normals") {
                 CHECK(worst < (form == normal_form::unit ? 0.40 : 0.33));
                 CHECK(sum / count < 0.25);
             }
+}
+
+TEST_CASE("planes of normals, and rows of them and of a picture, more than 2^31 apart") {
+    constexpr std::size_t beyond = (std::size_t(1) << 31) + 64;
+    constexpr glm::ivec2 extent(70, 3);
+    const auto map = shapes::sampled<float>(extent, [](double x, double y) { return std::sin(0.3 * x) + 0.2 * y * y; });
+    normals near(extent);
+    REQUIRE(bool(bake_normals(map.view(edge_mode::clamp), near.view())));
+    const normal_encoding encoding;
+    std::vector<std::byte> bytes(4 * required_size(extent, 1));
+    const pixels picture{.bytes = bytes, .extent = extent};
+    REQUIRE(bool(encode_normals(near.view(), encoding, picture)));
+    normals back(extent);
+    REQUIRE(bool(decode_normals(picture, encoding, back.view())));
+
+    normal_map far{.extent = extent, .row_stride = beyond};
+    pixels far_picture{.extent = extent, .row_stride = beyond};
+    const reserved planes(far.required_size() * sizeof(float)), rows(far_picture.required_size());
+    if (planes.data() == nullptr || rows.data() == nullptr) {
+        MESSAGE("skipped: no address space of ", planes.bytes() + rows.bytes(), " bytes here");
+        return;
+    }
+    far.values = {static_cast<float*>(planes.data()), far.required_size()};
+    far_picture.bytes = {static_cast<std::byte*>(rows.data()), rows.bytes()};
+    const auto same = [&](const normal_map& a, const normal_map& b) {
+        for (int c = 0; c < 3; ++c)
+            for (int y = 0; y < extent.y; ++y)
+                if (!std::equal(a.row(c, y), a.row(c, y) + extent.x, b.row(c, y))) return false;
+        return true;
+    };
+    REQUIRE(bool(bake_normals(map.view(edge_mode::clamp), far)));
+    CHECK(same(far, near.view()));
+    REQUIRE(bool(encode_normals(far, encoding, far_picture)));
+    for (int y = 0; y < extent.y; ++y)
+        CHECK(std::equal(far_picture.row(y), far_picture.row(y) + 4 * extent.x, picture.row(y)));
+    REQUIRE(bool(decode_normals(far_picture, encoding, far)));
+    CHECK(same(far, back.view()));
 }
 
 TEST_CASE("normals of nothing") {

@@ -6,14 +6,17 @@
 #include <bumpshadow/encode/ssbump.hpp>
 #include <bumpshadow/encode/tangent_volume.hpp>
 #include <bumpshadow/horizon/cascade.hpp>
+#include <bumpshadow/reference/sampler.hpp>
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <deque>
 #include <vector>
 
 #include "support/horizons.hpp"
+#include "support/reserved.hpp"
 
 using namespace bumpshadow;
 
@@ -159,6 +162,44 @@ TEST_CASE("bands of rows: baked one by one") {
                   });
 }
 
+TEST_CASE("bands of rows: more than 2^31 bytes into a texture") {
+    constexpr int first = 1 << 26;
+    const glm::ivec2 extent(36, 16), whole(extent.x, first + extent.y);
+    const horizons map = horizons::random(extent, 32, 7);
+    for_encodings(extent, map.directions,
+                  [&](const std::vector<texture_layout>& layouts, slice_fit fit, const auto& pack) {
+                      if (fit != slice_fit::point) return;
+                      textures expected(layouts);
+                      REQUIRE(bool(pack(map.view(), pack_options{.fit = fit}, expected.views)));
+                      std::deque<reserved> places;
+                      std::vector<texture> views;
+                      for (texture_layout layout : layouts) {
+                          layout.extent = whole;
+                          const reserved& place = places.emplace_back(layout.required_size());
+                          REQUIRE(place.bytes() > std::size_t(1) << 31);
+                          if (place.data() == nullptr) {
+                              MESSAGE("skipped: no address space of ", place.bytes(), " bytes here");
+                              return;
+                          }
+                          views.push_back({{static_cast<std::byte*>(place.data()), place.bytes()}, layout});
+                      }
+                      REQUIRE(bool(pack(map.view(), pack_options{.fit = fit, .first_row = first}, views)));
+                      for (std::size_t i = 0; i < views.size(); ++i) {
+                          const texture_layout& l = views[i].layout;
+                          const std::size_t before = l.row_bytes(0) * std::size_t(first / traits_of(l.format).block);
+                          for (int layer = 0; layer < l.layers; ++layer)
+                              for (int slice = 0; slice < l.depth; ++slice) {
+                                  const std::byte* const near = expected.views[i].slice(layer, 0, slice);
+                                  CHECK(std::equal(near, near + layouts[i].slice_bytes(0),
+                                                   views[i].slice(layer, 0, slice) + before));
+                                  const glm::ivec3 last(extent - 1, slice);
+                                  CHECK(fetch(views[i], last + glm::ivec3(0, first, 0), 0, layer) ==
+                                        fetch(expected.views[i], last, 0, layer));
+                              }
+                      }
+                  });
+}
+
 TEST_CASE("bands of rows: blocks are whole, mips have no bands") {
     const horizons map = horizons::random({20, 48}, 16, 3);
     tangent_volume e{{8}, {}, texel_format::bc4, texture_kind::array};
@@ -220,5 +261,23 @@ TEST_CASE("bands of rows: ssbump, with mips after the last one") {
             CHECK(pack_ssbump(rows_of(map.view(), 0, 16), map.directions, band, e, bands.views[0], serial{}, first)
                       .code() == error::out_of_range);
         CHECK(bands.bytes == before);
+    }
+    // More than 2^31 bytes into a texture.
+    constexpr int first = 1 << 27;
+    for (const texel_format format : {texel_format::rgba8, texel_format::rgb565}) {
+        const ssbump e{.format = format};
+        textures expected({layout_of(e, extent)});
+        REQUIRE(bool(pack_ssbump(map.view(), map.directions, normals, e, expected.views[0])));
+        const texture_layout l = layout_of(e, {extent.x, first + extent.y});
+        const reserved place(l.required_size());
+        REQUIRE(place.bytes() > std::size_t(1) << 31);
+        if (place.data() == nullptr) {
+            MESSAGE("skipped: no address space of ", place.bytes(), " bytes here");
+            continue;
+        }
+        const texture far{{static_cast<std::byte*>(place.data()), place.bytes()}, l};
+        REQUIRE(bool(pack_ssbump(map.view(), map.directions, normals, e, far, serial{}, first)));
+        CHECK(std::equal(expected.bytes[0].begin(), expected.bytes[0].end(),
+                         far.bytes.begin() + std::ptrdiff_t(l.row_bytes(0)) * first));
     }
 }
