@@ -138,11 +138,11 @@ template <height_sample Sample>
 [[nodiscard]] inline status check_grid(glm::ivec2 extent, glm::dvec2 texel_size) {
     constexpr const char* sides[] = {"heights.extent.x", "heights.extent.y"};
     constexpr const char* sizes[] = {"texel_size.x", "texel_size.y"};
-    for (int i = 0; i < 2; ++i) {
+    for (glm::length_t i = 0; i < 2; ++i) {
         if (extent[i] <= 0) return {error::not_positive, sides[i], double(extent[i])};
         if (extent[i] > largest_side) return {error::out_of_range, sides[i], double(extent[i]), double(largest_side)};
     }
-    for (int i = 0; i < 2; ++i) {
+    for (glm::length_t i = 0; i < 2; ++i) {
         const double size = texel_size[i], least = 1.0 / largest_length;
         if (!is_finite(size)) return {error::not_finite, sizes[i], size};
         if (!(size > 0.0)) return {error::not_positive, sizes[i], size};
