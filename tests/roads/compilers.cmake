@@ -21,7 +21,8 @@ endfunction()
 
 string(REPLACE "|" ";" COMPILERS "${COMPILERS}")
 foreach(compiler IN LISTS COMPILERS)
-    compile(${compiler} -std=c++2b)
+    # Clang counts a signed index of such a vector as a conversion, GCC does not.
+    compile(${compiler} -std=c++2b -DGLM_FORCE_SIZE_T_LENGTH)
     compile(${compiler} -std=c++20 -fno-exceptions -fno-rtti)
     if(THOROUGH)
         compile(${compiler} -std=c++20)
