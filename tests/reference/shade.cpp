@@ -416,7 +416,19 @@ TEST_CASE("shade: a shadow without its texture is refused") {
     CHECK(shade({}, shadow, flat, out).argument() == std::string_view("radius"));
     CHECK(std::count(values.begin(), values.end(), 7.0f) == 48);
     shadow.radius = 1.0;
+    shadow.level = not_a_number;
+    CHECK(shade({}, shadow, flat, out).argument() == std::string_view("level"));
+    shadow.level = infinite;
+    shadow.encoding.slices.phase = double(infinite);
+    CHECK(shade({}, shadow, flat, out).argument() == std::string_view("phase"));
+    shadow.encoding.slices.phase = 0.0;
+    shadow.encoding.scale.max_slope = -1.0f;
+    CHECK(shade({}, shadow, flat, out).argument() == std::string_view("max_slope"));
+    CHECK(std::count(values.begin(), values.end(), 7.0f) == 48);
+    shadow.encoding.scale.max_slope = 4.0f;
     CHECK(bool(shade({}, shadow, flat, out)));
+    encoded_shadow<sine_layers> sines{.encoding = {.scale = {quantity::sine, not_a_number}}};
+    CHECK(shade({}, sines, flat, out).argument() == std::string_view("max_slope"));
     const encoded_shadow<fourier, fourier_textures> series;
     CHECK(shade({}, series, flat, out).code() == error::mismatch);
 }

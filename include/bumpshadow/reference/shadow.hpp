@@ -261,7 +261,6 @@ template <class Textures>
     return check_textures(encoding, from.maps);
 }
 [[nodiscard]] inline status check_textures(const fourier& encoding, const fourier_textures& from) {
-    if (status s = check(encoding); !s) return s;
     for (int i = 0; i < texture_count(encoding); ++i) {
         const const_texture& t = from.maps[std::size_t(i)];
         if (status s = check_layout(t, layout_of(encoding, t.layout.extent, t.layout.mips, i)); !s) return s;
@@ -289,9 +288,14 @@ struct encoded_shadow {
     // True where the encoding gives brightness in place of a shadow factor.
     static constexpr bool shades = std::is_same_v<Encoding, ssbump> || std::is_same_v<Encoding, emboss>;
 
-    // Checks edge, radius and textures; shade() begins with it.
+    // Checks encoding, edge, radius, level and textures; shade() begins with it.
     [[nodiscard]] status check() const {
+        if constexpr (requires { bumpshadow::check(encoding); })
+            if (status s = bumpshadow::check(encoding); !s) return s;
+        if constexpr (!shades)
+            if (status s = bumpshadow::check(encoding.scale); !s) return s;
         if (status s = bumpshadow::check(edge); !s) return s;
+        if (is_nan(level)) return {error::not_finite, "level", double(level)};
         if (!(radius >= 0.0 && radius <= 45.0)) return {error::out_of_range, "radius", radius, 45.0};
         return shadow_detail::check_textures(encoding, textures);
     }
