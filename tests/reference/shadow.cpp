@@ -1,5 +1,7 @@
 #include <bumpshadow/reference/shadow.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -594,6 +596,24 @@ TEST_CASE("whole pictures: rows of a tangent volume are the same numbers as pixe
                         CHECK(different == 0);
                     }
             }
+    }
+}
+
+TEST_CASE("rows of a tangent volume: the length of the light does not matter") {
+    const glm::ivec2 extent(16, 1);
+    encoded_shadow<tangent_volume> shadow;
+    stored t(layout_of(shadow.encoding, extent));
+    for (std::size_t i = 0; i < t.bytes.size(); ++i) t.bytes[i] = std::byte((i * 37) & 255);
+    shadow.textures = t;
+    shadow.edge = {8.0f, 0.5f};
+    const glm::vec3 light(0.25f, -0.125f, 0.5f);
+    std::array<float, 16> unit{};
+    REQUIRE(shadow.row(extent, {0, 0}, 16, light, unit.data()));
+    CHECK(*std::max_element(unit.begin(), unit.end()) > 0.0f);
+    for (const int power : {-120, -60, 60, 120}) {
+        std::array<float, 16> far{};
+        REQUIRE(shadow.row(extent, {0, 0}, 16, light * std::ldexp(1.0f, power), far.data()));
+        CHECK(far == unit);
     }
 }
 

@@ -319,7 +319,8 @@ struct encoded_shadow {
         if (!is_finite(light) || light.z < 0.0f)
             std::fill(factors, factors + count, 0.0f);
         else
-            shadow_detail::volume_row(encoding, textures, how, first, count, light, edge_at(light), factors);
+            shadow_detail::volume_row(encoding, textures, how, first, count, shadow_detail::scaled(light),
+                                      edge_at(light), factors);
         return true;
     }
 };
