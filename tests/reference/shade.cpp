@@ -156,6 +156,23 @@ TEST_CASE("Blinn-Phong") {
     check_equal(one(o), glm::vec3(0));
 }
 
+TEST_CASE("Blinn-Phong: no exponent makes a highlight brighter than its factor") {
+    // Mirrored straight into the eye, where the cosine is 1 but for rounding.
+    for (int i = 0; i < 64; ++i) {
+        const glm::vec3 normal = toward(i * 11.0, 40.0 + 0.7 * i);
+        std::array<float, 3> n{normal.x, normal.y, normal.z};
+        shade_options o;
+        o.normals = {n, {1, 1}};
+        o.light.direction = o.viewer_direction = normal;
+        o.albedo = glm::vec3(0.0f);
+        o.specular = glm::vec3(1.0f);
+        for (const float shininess : {32.0f, 1e6f, 1e9f, 3e38f}) {
+            o.shininess = shininess;
+            CHECK(one(o).x <= 1.0f);
+        }
+    }
+}
+
 TEST_CASE("shadows take diffuse and specular light, not the ambient, and multiply the shadow that is there") {
     shade_options o;
     o.ambient = glm::vec3(0.1f);

@@ -270,7 +270,10 @@ private:
             }
             const glm::vec3 normal = w.normal.at(i), light = w.light.at(i);
             const float cosine = glm::dot(normal, unit(light + view));
-            w.gloss[i] = glm::dot(normal, light) > 0.0f && cosine > 0.0f ? std::pow(cosine, options_.shininess) : 0.0f;
+            // A cosine that is rounded to above 1 would grow with the exponent.
+            w.gloss[i] = glm::dot(normal, light) > 0.0f && cosine > 0.0f
+                             ? std::pow((std::min)(cosine, 1.0f), options_.shininess)
+                             : 0.0f;
         }
     }
 
