@@ -506,6 +506,23 @@ TEST_CASE("traced: a wall casts a shadow of its height times the light's cotange
     }
 }
 
+TEST_CASE("traced: a hole is not shadowed, and takes no shadow from its neighbors") {
+    for (const int width : {3, 19, 100, 1021}) {
+        std::vector<float> slopes(std::size_t(width), 1.0f);
+        const int hole = width - 2;
+        for (const float missing : {no_horizon, -infinite, not_a_number}) {
+            slopes[std::size_t(hole)] = missing;
+            const const_texture t{std::as_bytes(std::span(slopes)), layout_of(traced{}, {width, 1})};
+            for (int x = 0; x < width; ++x)
+                CHECK(shadow_factor(traced{}, t, {}, {(float(x) + 0.5f) / float(width), 0.5f}, {2.0f, 0.0f, 1.0f}) ==
+                      (x == hole ? 1.0f : 0.0f));
+            // A quarter of the way to the hole, three quarters of the neighbor's horizon are left.
+            const glm::vec2 between((float(hole) - 0.25f) / float(width), 0.5f);
+            CHECK(horizon(traced{}, t, {}, between, {}) == doctest::Approx(0.75 / 4.0).epsilon(1e-3));
+        }
+    }
+}
+
 TEST_CASE("SSBump: brightness of a light projected on the basis") {
     // The flat normal's masks are 1 / sqrt(3) each: brightness is the sine of the elevation where no mask is hidden.
     const ssbump e;

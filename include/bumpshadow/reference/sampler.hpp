@@ -164,19 +164,32 @@ template <class Vector, class Scalar = typename Vector::value_type>
     return {0.0f, 0.0f, 0.0f, 1.0f};
 }
 
-// A flat texture, or a layer of an array: (0, 0) is the corner of the image, texel centers stand at (i + 0.5) / extent.
-[[nodiscard]] inline glm::vec4 sample(const const_texture& from, const sampler& how, glm::vec2 uv, float level = 0.0f,
-                                      int layer = 0) {
+namespace sampler_detail {
+
+// As sample(), of texels that read(x, y, mip) gives.
+template <class Read>
+[[nodiscard]] glm::vec4 sample_flat(const const_texture& from, const sampler& how, glm::vec2 uv, float level,
+                                    const Read& read) {
     BUMPSHADOW_ASSERT(from.layout.kind == texture_kind::flat || from.layout.kind == texture_kind::array);
     BUMPSHADOW_ASSERT(is_finite(uv.x) && is_finite(uv.y) && !is_nan(level));
-    return sampler_detail::across_levels(from.layout.mips, level, how, [&](int mip) {
+    return across_levels(from.layout.mips, level, how, [&](int mip) {
         const glm::ivec2 extent = from.layout.level_extent(mip);
-        const auto x = sampler_detail::tap_of(uv.x, extent.x, how.x, how);
-        const auto y = sampler_detail::tap_of(uv.y, extent.y, how.y, how);
-        const auto texel = [&](int i, int j) { return fetch(from, {i, j, 0}, mip, layer); };
+        const auto x = tap_of(uv.x, extent.x, how.x, how);
+        const auto y = tap_of(uv.y, extent.y, how.y, how);
+        const auto texel = [&](int i, int j) { return read(i, j, mip); };
         if (how.texels == filter_mode::point) return texel(x.first, y.first);
         return glm::mix(glm::mix(texel(x.first, y.first), texel(x.second, y.first), x.weight),
                         glm::mix(texel(x.first, y.second), texel(x.second, y.second), x.weight), y.weight);
+    });
+}
+
+}  // namespace sampler_detail
+
+// A flat texture, or a layer of an array: (0, 0) is the corner of the image, texel centers stand at (i + 0.5) / extent.
+[[nodiscard]] inline glm::vec4 sample(const const_texture& from, const sampler& how, glm::vec2 uv, float level = 0.0f,
+                                      int layer = 0) {
+    return sampler_detail::sample_flat(from, how, uv, level, [&](int x, int y, int mip) {
+        return fetch(from, {x, y, 0}, mip, layer);
     });
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 
 #include <bumpshadow/encode/emboss.hpp>
@@ -173,7 +174,8 @@ struct fourier_textures {
 // ---- Traced ----
 
 // Horizons baked in the light's own bearing, by bake_exact for instance: a flat r32f texture of slopes, the one slice
-// of a horizon_map. They are compared as `scale` says, without its limit.
+// of a horizon_map. They are compared as `scale` says, without its limit. Before they are filtered, what is below 0
+// (no_horizon among it) and NaN count as 0, as in the other encodings.
 struct traced {
     horizon_scale scale;  // quantity that is compared, and the slope that stands for 1
 };
@@ -189,7 +191,11 @@ struct traced {
 // Horizon in the bearing that was baked, whatever that of the light.
 [[nodiscard]] inline float horizon(const traced& encoding, const const_texture& from, const sampler& how, glm::vec2 uv,
                                    glm::vec3, float level = 0.0f) {
-    const float slope = sample(from, how, uv, level).x;
+    const auto read = [&](int x, int y, int mip) {
+        const float slope = fetch(from, {x, y, 0}, mip).x;
+        return glm::vec4(slope > 0.0f ? (std::min)(slope, (std::numeric_limits<float>::max)()) : 0.0f);
+    };
+    const float slope = sampler_detail::sample_flat(from, how, uv, level, read).x;
     return slope > 0.0f ? quantity_of_slope(encoding.scale.stored, slope) * stored_scale(encoding.scale) : 0.0f;
 }
 
