@@ -90,6 +90,18 @@ TEST_CASE("lights that shine from nowhere") {
             s.positions = lights;
             refused(s, error::not_finite, "scene.positions");
         }
+    // The square of the length is more than a double holds, but all components are finite.
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<glm::dvec3> lights = {{1.0, 0.0, 1.0}};
+        lights[0][axis] = 1.7e308;
+        refused(with(lights), error::out_of_range, "scene.lights");
+        CHECK(check(with(lights)).value() == 1.7e308);
+        scene s;
+        s.positions = lights;
+        refused(s, error::out_of_range, "scene.positions");
+        lights[0] = {1.0, 1.0, 1.0};
+        CHECK(bool(check(with(lights = {lights[0] * largest_light}))));
+    }
     for (const double height : {0.0, -2.0}) {
         const std::vector<glm::dvec3> places = {{4.0, 4.0, height}};
         scene s;

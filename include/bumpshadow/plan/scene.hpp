@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <span>
 
@@ -21,7 +23,7 @@ struct light_arc {
 
 // The lights of a scene, the error that is bearable, the budgets and the platform.
 struct scene {
-    // Lights: the first of these that is not empty counts, else the arc.
+    // Lights: the first of these that is not empty counts, else the arc. No component is above largest_light in size.
     std::span<const glm::dvec3> lights = {};     // directions to far lights that do not move, in tangent space
     std::span<const glm::dvec3> positions = {};  // places of point lights: x, y from texel (0, 0) on, z above the
                                                  // surface that the bumps stand on, all in the unit of texel_size
@@ -46,18 +48,28 @@ struct scene {
     double texels_per_pixel = 1.0;  // of the nearest view, at least 1; taken as 1, 2, 4 or 8
 };
 
+// The length of a vector of much larger components would overflow.
+inline constexpr double largest_light = 1e150;
+
 // Checks all of it, and names what is wrong.
 [[nodiscard]] inline status check(const scene& s) {
     const auto positive = [](const char* name, double value) {
         return value > 0.0 ? status{} : status{error::not_positive, name, value};
     };
+    const auto measurable = [](const char* name, const glm::dvec3& v) -> status {
+        for (const double part : {v.x, v.y, v.z}) {
+            if (!is_finite(part)) return {error::not_finite, name, part};
+            if (std::abs(part) > largest_light) return {error::out_of_range, name, part, largest_light};
+        }
+        return {};
+    };
     for (const glm::dvec3& v : s.lights) {
-        if (!is_finite(v.x) || !is_finite(v.y) || !is_finite(v.z)) return {error::not_finite, "scene.lights", v.z};
+        if (status e = measurable("scene.lights", v); !e) return e;
         if (!(v.z >= 0.0)) return {error::out_of_range, "scene.lights z (below the surface)", v.z, 0.0};
         if (v == glm::dvec3(0.0)) return {error::not_positive, "length of one of scene.lights", 0.0};
     }
     for (const glm::dvec3& v : s.positions) {
-        if (!is_finite(v.x) || !is_finite(v.y) || !is_finite(v.z)) return {error::not_finite, "scene.positions", v.z};
+        if (status e = measurable("scene.positions", v); !e) return e;
         if (!(v.z > 0.0)) return {error::not_positive, "scene.positions z", v.z};
     }
     const light_arc& a = s.arc;
