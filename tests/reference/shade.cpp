@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <limits>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -359,9 +360,11 @@ TEST_CASE("bad input is refused and nothing is written") {
     shade_options o = good;
     o.light.direction = {0, not_a_number, 1};
     CHECK(result(o).code() == error::not_finite);
+    CHECK(is_nan(result(o).value()));
     o = good;
-    o.light.direction = {infinite, 0, 1};
+    o.light.direction = {1, 0, infinite};
     CHECK(result(o).code() == error::not_finite);
+    CHECK(result(o).value() == double(infinite));
     o = good;
     o.light.color.y = infinite;
     CHECK(result(o).code() == error::not_finite);
@@ -377,6 +380,11 @@ TEST_CASE("bad input is refused and nothing is written") {
     o.light.kind = light_kind::point;
     o.light.position.z = not_a_number;
     CHECK(result(o).code() == error::not_finite);
+    o.light.position.z = 1.0f;
+    for (const glm::vec2 size : {glm::vec2(not_a_number, 1.0f), glm::vec2(1.0f, infinite)}) {
+        const status s = shade(o, no_shadow{}, flat_surface{{4, 2}, size}, c);
+        CHECK(s.argument() == std::string_view("surface texel_size"));
+    }
     o = good;
     o.ambient.z = not_a_number;
     CHECK(result(o).code() == error::not_finite);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <utility>
 
@@ -44,16 +45,28 @@ struct light_source {
     glm::vec3 color{1.0f};
 };
 
+namespace lighting_detail {
+
+// An error with the first component that is not finite.
+[[nodiscard]] inline status check_finite(const char* name, glm::vec3 v) {
+    for (const float part : {v.x, v.y, v.z})
+        if (!is_finite(part)) return {error::not_finite, name, double(part)};
+    return {};
+}
+
+}  // namespace lighting_detail
+
 // Checks what the light's kind takes.
 [[nodiscard]] inline status check(const light_source& light) {
-    if (!is_finite(light.color)) return {error::not_finite, "light.color", double(light.color.x)};
+    using lighting_detail::check_finite;
+    if (status s = check_finite("light.color", light.color); !s) return s;
     if (light.kind == light_kind::directional) {
-        if (!is_finite(light.direction)) return {error::not_finite, "light.direction", double(light.direction.x)};
+        if (status s = check_finite("light.direction", light.direction); !s) return s;
         return {};
     }
-    if (!is_finite(light.position)) return {error::not_finite, "light.position", double(light.position.x)};
+    if (status s = check_finite("light.position", light.position); !s) return s;
     if (light.kind == light_kind::spot) {
-        if (!is_finite(light.axis)) return {error::not_finite, "light.axis", double(light.axis.x)};
+        if (status s = check_finite("light.axis", light.axis); !s) return s;
         if (light.axis == glm::vec3(0.0f)) return {error::not_positive, "length of light.axis", 0.0};
         if (!(light.outer_cosine >= -1.0f && light.outer_cosine < 1.0f))
             return {error::out_of_range, "light.outer_cosine", double(light.outer_cosine), 1.0};
@@ -63,7 +76,8 @@ struct light_source {
     return {};
 }
 
-// A pixel's place on the surface. The frame is orthonormal; the maps' tangent space is (tangent, bitangent, normal).
+// A pixel's place on the surface, all of it finite. The frame is orthonormal; the maps' tangent space is (tangent,
+// bitangent, normal).
 struct surface_point {
     glm::vec2 uv{0.0f};                     // texture coordinates
     glm::vec3 position{0.0f};               // in the space of the lights
@@ -76,7 +90,7 @@ struct surface_point {
 // surface is any callable that takes a pixel (glm::ivec2) and gives its surface_point.
 struct flat_surface {
     glm::ivec2 extent{0};        // texels, and pixels
-    glm::vec2 texel_size{1.0f};  // units between texel centers
+    glm::vec2 texel_size{1.0f};  // units between texel centers, finite
 
     // The surface at a pixel.
     [[nodiscard]] surface_point operator()(glm::ivec2 pixel) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
@@ -298,15 +299,13 @@ private:
 }
 
 [[nodiscard]] inline status check_numbers(const shade_options& options) {
-    const auto finite = [](const char* name, glm::vec3 v) {
-        return is_finite(v) ? status{} : status{error::not_finite, name, double(v.x)};
-    };
-    if (status s = finite("ambient", options.ambient); !s) return s;
-    if (status s = finite("albedo", options.albedo); !s) return s;
-    if (status s = finite("specular", options.specular); !s) return s;
-    if (status s = finite("viewer_direction", options.viewer_direction); !s) return s;
+    using lighting_detail::check_finite;
+    if (status s = check_finite("ambient", options.ambient); !s) return s;
+    if (status s = check_finite("albedo", options.albedo); !s) return s;
+    if (status s = check_finite("specular", options.specular); !s) return s;
+    if (status s = check_finite("viewer_direction", options.viewer_direction); !s) return s;
     if (options.viewer_position)
-        if (status s = finite("viewer_position", *options.viewer_position); !s) return s;
+        if (status s = check_finite("viewer_position", *options.viewer_position); !s) return s;
     if (!(options.shininess >= 0.0f && is_finite(options.shininess)))
         return {error::out_of_range, "shininess", double(options.shininess), 0.0};
     if (is_nan(options.fade_start)) return {error::not_finite, "fade_start", double(options.fade_start)};
@@ -335,6 +334,8 @@ template <class Shadow, class Surface, executor Executor = serial>
             return {error::mismatch, "surface extent.x", double(surface.extent.x), double(out.extent.x)};
         if (surface.extent.y != out.extent.y)
             return {error::mismatch, "surface extent.y", double(surface.extent.y), double(out.extent.y)};
+        for (const float size : {surface.texel_size.x, surface.texel_size.y})
+            if (!is_finite(size)) return {error::not_finite, "surface texel_size", double(size)};
     }
     if (status s = shade_detail::check_maps(options, out.extent, flat); !s) return s;
     if constexpr (requires { shadow.check(); })
