@@ -20,6 +20,9 @@
 #include <bumpshadow/horizon/neighborhood.hpp>
 #include <bumpshadow/horizon/sweep.hpp>
 #include <bumpshadow/horizon_map.hpp>
+#include <bumpshadow/measure/elevation.hpp>
+#include <bumpshadow/measure/figures.hpp>
+#include <bumpshadow/status.hpp>
 
 namespace stability {
 namespace {
@@ -103,6 +106,17 @@ public:
         }
     }
 
+    // What is found where nothing was baked: 90 degrees below level ground at one of two texels, in both bearings.
+    void measures(const char* what, float missing) {
+        const float found[] = {0.0f, missing, 0.0f, missing}, exact[] = {0.0f, 0.0f, 0.0f, 0.0f};
+        bs::error_figures figures;
+        const bs::status s = bs::elevation_error(found, 2, exact, figures);
+        const bool right = bool(s) && figures.count == 4 && std::abs(figures.mean - 45.0) < 1e-9;
+        std::printf("| %s | elevation_error | mean of %zu: %g degrees | %s |\n", what, figures.count, figures.mean,
+                    right ? "held" : "BROKEN");
+        wrong_ += right ? 0 : 1;
+    }
+
     [[nodiscard]] int wrong() const { return wrong_; }
 
 private:
@@ -135,6 +149,8 @@ int check_missing_heights() {
     check.leaves_out("-infinity as no_data in double", -double(infinite));
     check.leaves_out("-9999 as no_data", -9999.0f);
     check.leaves_out("the largest float as no_data", std::numeric_limits<float>::max());
+    check.measures("no_horizon among slopes", bs::no_horizon);
+    check.measures("NaN among slopes", nan);
     return check.wrong();
 }
 

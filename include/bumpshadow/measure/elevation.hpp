@@ -7,6 +7,7 @@
 #include <span>
 
 #include <bumpshadow/encode/slices.hpp>
+#include <bumpshadow/finite.hpp>
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/measure/figures.hpp>
@@ -20,14 +21,14 @@ namespace measure_detail {
 
 // Elevation of a slope in radians: straight down for no_horizon, and for NaN.
 [[nodiscard]] inline double elevation_angle(float slope) {
-    return std::isnan(slope) ? -0.5 * std::numbers::pi : std::atan(double(slope));
+    return is_nan(slope) ? -0.5 * std::numbers::pi : std::atan(double(slope));
 }
 
 // True where no direction of a texel has a horizon: a hole. slope(bearing)
 template <class Slope>
 [[nodiscard]] bool is_hole(std::size_t bearings, const Slope& slope) {
     for (std::size_t b = 0; b < bearings; ++b)
-        if (slope(b) > no_horizon) return false;
+        if (const float s = slope(b); !is_nan(s) && s > no_horizon) return false;
     return true;
 }
 
