@@ -286,6 +286,20 @@ TEST_CASE("a max_slope that is next to nothing, and 0") {
                 }
 }
 
+TEST_CASE("straight up is lit over the steepest horizon of the largest max_slope") {
+    tangent_volume e;
+    e.scale.max_slope = largest_max_slope;
+    REQUIRE(bool(check(e)));
+    stored t(layout_of(e, {1, 1}));
+    std::fill(t.bytes.begin(), t.bytes.end(), std::byte(255));
+    for (const shadow_edge edge : {shadow_edge{}, shadow_edge{8.0f, 1.0f}, shadow_edge{8.0f, 0.5f}})
+        CHECK(shadow_factor(e, t, {}, middle, {0.0f, 0.0f, 1.0f}, edge) == 1.0f);
+    const float endless = infinite;
+    const const_texture cliff{std::as_bytes(std::span(&endless, 1)), layout_of(traced{}, {1, 1})};
+    CHECK(shadow_factor(traced{}, cliff, {}, middle, {0.0f, 0.0f, 1.0f}) == 1.0f);
+    CHECK(shadow_factor(traced{}, cliff, {}, middle, {1.0f, 0.0f, 1e3f}) == 0.0f);
+}
+
 TEST_CASE("a light on the horizon is lit, and half lit with a centered edge") {
     // Where nothing occludes, the horizon is exactly 0, and so is a light in the surface.
     const every_encoding flat({4, 4}, [](int, int, double) { return no_horizon; });

@@ -20,8 +20,8 @@ struct horizon_scale {
 
 // The inverse of a smaller one, times a light straight up, would overflow.
 inline constexpr float smallest_max_slope = 1e-18f;
-// The inverse of a larger one is denormal, which many programs flush to 0.
-inline constexpr float largest_max_slope = 1e37f;
+// A light straight up has a slope of 1e15 (shader/light.h), which has to be above all horizons.
+inline constexpr float largest_max_slope = 1e14f;
 
 // Checks max_slope.
 [[nodiscard]] inline status check(const horizon_scale& scale) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <type_traits>
 
 #include <bumpshadow/encode/emboss.hpp>
@@ -175,7 +174,7 @@ struct fourier_textures {
 
 // Horizons baked in the light's own bearing, by bake_exact for instance: a flat r32f texture of slopes, the one slice
 // of a horizon_map. They are compared as `scale` says, without its limit. Before they are filtered, what is below 0
-// (no_horizon among it) and NaN count as 0, as in the other encodings.
+// (no_horizon among it) and NaN count as 0, as in the other encodings, and what is above largest_max_slope as that.
 struct traced {
     horizon_scale scale;  // quantity that is compared, and the slope that stands for 1
 };
@@ -193,7 +192,7 @@ struct traced {
                                    glm::vec3, float level = 0.0f) {
     const auto read = [&](int x, int y, int mip) {
         const float slope = fetch(from, {x, y, 0}, mip).x;
-        return glm::vec4(slope > 0.0f ? (std::min)(slope, (std::numeric_limits<float>::max)()) : 0.0f);
+        return glm::vec4(slope > 0.0f ? (std::min)(slope, largest_max_slope) : 0.0f);
     };
     const float slope = sampler_detail::sample_flat(from, how, uv, level, read).x;
     return slope > 0.0f ? quantity_of_slope(encoding.scale.stored, slope) * stored_scale(encoding.scale) : 0.0f;
