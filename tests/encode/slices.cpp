@@ -440,6 +440,11 @@ TEST_CASE("bad input is named and nothing is written") {
     CHECK(code() == error::not_positive);
     slices.count = most_slices + 1;
     CHECK(code() == error::out_of_range);
+    slices.count = 4;
+    for (const double turns : {-1.0, 1.0}) {
+        slices.phase = turns * std::nextafter(largest_phase, 17.0);
+        CHECK(code() == error::out_of_range);
+    }
     slices = {9};
     for (const slice_fit fit : {slice_fit::least_squares, slice_fit::least_angle}) {
         options.fit = fit;

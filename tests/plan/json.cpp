@@ -45,7 +45,7 @@ recipe any_recipe(unsigned seed) {
     r.reduction = n.whole(1, 8);
     r.encoding.slices.count = n.whole(1, 48);
     r.directions = r.encoding.slices.count + n.whole(0, 48);
-    r.encoding.slices.phase = n.real();
+    r.encoding.slices.phase = double(n.whole(-3000, 3000)) / 3000.0;
     r.encoding.slices.arc = n.coin() ? 1.0 : double(n.whole(100, 2500)) / 3000.0;
     r.encoding.slices.function = bearing_function(n.whole(0, 4));
     r.encoding.scale.stored = quantity(n.whole(0, 2));

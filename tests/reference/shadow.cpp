@@ -345,6 +345,31 @@ TEST_CASE("horizons come out at their bearings and between them") {
     }
 }
 
+TEST_CASE("whole turns of the phase do not matter, up to the largest") {
+    const auto difference = [](auto near) {
+        auto far = near;
+        near.slices.phase = 0.375;
+        stored t(layout_of(near, {1, 1}));
+        for (std::size_t i = 0; i < t.bytes.size(); ++i) t.bytes[i] = std::byte((i * 53) & 255);
+        double most = 0.0;
+        for (const double turns : {1.0, 15.0, -16.0}) {
+            far.slices.phase = 0.375 + turns;
+            REQUIRE(bool(check(far.slices)));
+            for (int i = 0; i < 500; ++i) {
+                const float bearing = float(i) / 500.0f;
+                most =
+                    std::fmax(most, std::abs(double(horizon_at(near, const_texture(t), {}, glm::vec2(0.5f), bearing)) -
+                                             double(horizon_at(far, const_texture(t), {}, glm::vec2(0.5f), bearing))));
+            }
+        }
+        return most;
+    };
+    // The steepest slope between slices is their number; bearings are off by two roundings, at 16 and beyond.
+    CHECK(difference(tangent_volume{{12}}) < 12 * 2e-6);
+    CHECK(difference(tangent_volume{.slices = {12}, .kind = texture_kind::array}) < 12 * 2e-6);
+    CHECK(difference(slice_layers{{12}}) < 12 * 2e-6);
+}
+
 TEST_CASE("Fourier series come out at every bearing") {
     // A wave in the stored quantity itself has no more than one coefficient beside the constant.
     for (const double phase : {0.0, 0.3}) {

@@ -26,7 +26,7 @@ namespace bumpshadow {
 // Fits do not look at horizons in directions beyond the arc.
 struct slice_set {
     int count = 8;                                        // slices, 1 to most_slices
-    double phase = 0.0;                                   // bearing of the first one, in turns
+    double phase = 0.0;                                   // bearing of the first one, up to largest_phase turns
     bearing_function function = bearing_function::cubic;  // that the shader looks them up by
     double arc = 1.0;                                     // in turns, smallest_arc to 1; of one slice 0 to 1
 };
@@ -35,6 +35,9 @@ struct slice_set {
 inline constexpr int most_slices = 4096;
 // Turns. Bearings are floats in shaders.
 inline constexpr double smallest_arc = 1e-6;
+
+// Turns, either way. Shaders subtract it in floats, which are off by up to 2e-6 there.
+inline constexpr double largest_phase = 16.0;
 
 // How the slices that are stored come of the horizons that were baked.
 enum class slice_fit : unsigned char {
@@ -50,6 +53,7 @@ enum class slice_fit : unsigned char {
     if (slices.count <= 0) return {error::not_positive, "slices", double(slices.count)};
     if (slices.count > most_slices) return {error::out_of_range, "slices", double(slices.count), double(most_slices)};
     if (!is_finite(slices.phase)) return {error::not_finite, "phase", slices.phase};
+    if (std::abs(slices.phase) > largest_phase) return {error::out_of_range, "phase", slices.phase, largest_phase};
     if (!is_finite(slices.arc)) return {error::not_finite, "arc", slices.arc};
     if (slices.arc < 0.0 || (slices.arc == 0.0 && slices.count > 1)) return {error::not_positive, "arc", slices.arc};
     if (slices.arc > 1.0) return {error::out_of_range, "arc", slices.arc, 1.0};
