@@ -429,6 +429,10 @@ TEST_CASE("fourier: bad input leaves the textures alone") {
     fourier bad = encoding;
     bad.ranges[2] = {1.0f, -1.0f};
     CHECK(code(bad) == error::out_of_range);
+    bad.ranges[2] = {-1.1f * largest_fourier_range, 1.0f};
+    CHECK(code(bad) == error::out_of_range);
+    bad.ranges[2] = {0.0f, 1.1f * largest_fourier_range};
+    CHECK(code(bad) == error::out_of_range);
     bad.ranges[2] = {0.0f, infinity};
     CHECK(code(bad) == error::not_finite);
     bad = encoding;

@@ -34,10 +34,13 @@ namespace bumpshadow {
 // x = k pi / M, for horizons as extreme as that: they are clamped.
 inline constexpr float fourier_bound = 0.318309886f;
 
-// What the smallest and the largest stored number stand for.
+// What the smallest and the largest stored number stand for, up to largest_fourier_range in size.
 struct fourier_range {
     float low = -fourier_bound, high = fourier_bound;  // in the stored quantity over what stands for 1
 };
+
+// A series of much larger coefficients would overflow, and its horizon not be a number.
+inline constexpr float largest_fourier_range = 1e36f;
 
 // All that decoding needs. Coefficients are counted: constant, sin t, cos t, sin 2t, cos 2t ..., with x = sin t and
 // y = cos t of the bearing's direction; all but the constant are half of what the series has.
@@ -78,6 +81,10 @@ inline constexpr float fourier_posted_c = 0.5f;
         const fourier_range r = encoding.ranges[std::size_t(i)];
         if (!is_finite(r.low)) return {error::not_finite, "range.low", double(r.low)};
         if (!is_finite(r.high)) return {error::not_finite, "range.high", double(r.high)};
+        if (r.low < -largest_fourier_range)
+            return {error::out_of_range, "range.low", double(r.low), double(-largest_fourier_range)};
+        if (r.high > largest_fourier_range)
+            return {error::out_of_range, "range.high", double(r.high), double(largest_fourier_range)};
         if (r.low > r.high) return {error::out_of_range, "range.low", double(r.low), double(r.high)};
     }
     return check(encoding.scale);
