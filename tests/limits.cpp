@@ -122,6 +122,17 @@ TEST_CASE("views whose sizes would wrap are refused by name") {
     }
 }
 
+TEST_CASE("views of negative extents need more than there is") {
+    constexpr std::size_t half = most / 2;
+    for (const int rows : {0, -1, INT_MIN}) {
+        CHECK(const_pixels{{}, {5, rows}, 4}.required_size() > half);
+        CHECK(rgb_image{{}, {5, rows}}.required_size() > half);
+        CHECK(normal_map{{}, {5, rows}}.required_size() > half);
+        CHECK(horizon_map{{}, {5, rows}, 2}.required_size() > half);
+        CHECK(horizon_map{{}, {5, 3}, rows}.required_size() > half);
+    }
+}
+
 TEST_CASE("mips beyond the chain are texels") {
     CHECK(mip_extent(8, 3) == 1);
     CHECK(mip_extent(8, 40) == 1);

@@ -43,13 +43,13 @@ struct horizon_map {
     }
     // Floats of a slice that count: from its first one to the last one of its last row.
     [[nodiscard]] constexpr std::size_t slice_size() const {
-        return saturated_sum(saturated_product(std::size_t(extent.y - 1), row_step()), std::size_t(extent.x));
+        return saturated_sum(saturated_product(std::size_t(extent.y) - 1, row_step()), std::size_t(extent.x));
     }
     // Floats that `values` has to have; the largest std::size_t where they are more than it counts.
     [[nodiscard]] constexpr std::size_t required_size() const {
         const std::size_t step =
             slice_stride != 0 ? slice_stride : saturated_product(row_step(), std::size_t(extent.y));
-        return saturated_sum(saturated_product(std::size_t(bearings - 1), step), slice_size());
+        return saturated_sum(saturated_product(std::size_t(bearings) - 1, step), slice_size());
     }
 };
 

@@ -49,7 +49,7 @@ struct normal_map {
     }
     // Floats of a component that count: from its first one to the last one of its last row.
     [[nodiscard]] constexpr std::size_t plane_size() const {
-        return saturated_sum(saturated_product(std::size_t(extent.y - 1), row_step()), std::size_t(extent.x));
+        return saturated_sum(saturated_product(std::size_t(extent.y) - 1, row_step()), std::size_t(extent.x));
     }
     // Floats that `values` has to have, 3 width height where tightly packed; the largest std::size_t where they are
     // more than it counts.

@@ -28,7 +28,7 @@ struct basic_pixels {
     [[nodiscard]] constexpr Byte* at(int x, int y) const { return row(y) + std::size_t(x) * std::size_t(channels); }
     // Bytes that `bytes` has to have; the largest std::size_t where they are more than it counts.
     [[nodiscard]] constexpr std::size_t required_size() const {
-        return saturated_sum(saturated_product(std::size_t(extent.y - 1), row_step()),
+        return saturated_sum(saturated_product(std::size_t(extent.y) - 1, row_step()),
                              saturated_product(std::size_t(extent.x), std::size_t(channels)));
     }
     // The same picture to read from.

@@ -115,7 +115,7 @@ struct rgb_image {
     [[nodiscard]] constexpr float* row(int y) const { return values.data() + std::size_t(y) * row_step(); }
     // Floats that `values` has to have; the largest std::size_t where they are more than it counts.
     [[nodiscard]] constexpr std::size_t required_size() const {
-        return saturated_sum(saturated_product(std::size_t(extent.y - 1), row_step()),
+        return saturated_sum(saturated_product(std::size_t(extent.y) - 1, row_step()),
                              saturated_product(3, std::size_t(extent.x)));
     }
 };
