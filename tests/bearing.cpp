@@ -200,6 +200,21 @@ TEST_CASE("the octant function moves the slices between the eighths") {
     CHECK(octant_direction(1.0 / 16.0).y == doctest::Approx(std::sqrt(2.0) / 4.0));
 }
 
+TEST_CASE("unit vectors of directions of any length") {
+    constexpr double most = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::denorm_min();
+    for (const double length : {most, 1e308, 1e160, 1.0, 1e-160, 1e-308, least}) {
+        CAPTURE(length);
+        for (const glm::dvec2 d : {glm::dvec2(1.0, 0.0), {0.0, -1.0}, {-1.0, 1.0}, {1.0, 1.0}}) {
+            const glm::dvec2 unit = unit_direction(length * d), expected = d / std::hypot(d.x, d.y);
+            CHECK(std::abs(unit.x - expected.x) <= 1e-15);
+            CHECK(std::abs(unit.y - expected.y) <= 1e-15);
+        }
+    }
+    const glm::dvec2 unit = unit_direction({3e307, -4e307});
+    CHECK(std::abs(unit.x - 0.6) <= 1e-15);
+    CHECK(std::abs(unit.y + 0.8) <= 1e-15);
+}
+
 TEST_CASE("directions of slices are exact mirror images of each other") {
     const auto octant = [](double b) { return octant_direction(b); };
     for (const int n : {1, 2, 3, 5, 7, 8, 12, 16, 20, 24, 49, 96})

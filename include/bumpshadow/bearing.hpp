@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -232,6 +233,14 @@ template <bearing_scalar T>
         case bearing_function::exact: break;
     }
     return exact_direction(bearing);
+}
+
+// The vector of length 1 along one of any finite length but 0.
+[[nodiscard]] inline glm::dvec2 unit_direction(glm::dvec2 direction) {
+    // By a power of two, which rounds nothing: the length of the largest overflows, that of the least has no digits.
+    const double largest = (std::max)(std::abs(direction.x), std::abs(direction.y));
+    direction *= largest > 0x1p500 ? 0x1p-600 : largest < 0x1p-500 ? 0x1p600 : 1.0;
+    return direction / std::hypot(direction.x, direction.y);
 }
 
 // Directions of evenly spaced slices: out[i] = direction(phase + i / out.size()), direction being one of the inverses

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include <bumpshadow/bearing.hpp>
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/status.hpp>
 
@@ -20,7 +21,7 @@ using fourier_terms = std::array<double, most_coefficients>;
 
 // 1, sin t, cos t, sin 2t, cos 2t ... of a direction of any length but 0, with x = sin t and y = cos t.
 [[nodiscard]] inline fourier_terms terms_of(glm::dvec2 direction) {
-    const glm::dvec2 d = direction / std::hypot(direction.x, direction.y);
+    const glm::dvec2 d = unit_direction(direction);
     fourier_terms terms{1.0, d.x, d.y};
     for (std::size_t i = 3; i < most_coefficients; i += 2) {
         terms[i] = terms[i - 2] * d.y + terms[i - 1] * d.x;

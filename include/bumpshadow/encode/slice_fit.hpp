@@ -197,7 +197,7 @@ template <class Bearing>
     for (std::size_t i = 0; i < own.size(); ++i) {
         std::size_t j = 0;
         for (; j < directions.size(); ++j) {
-            const glm::dvec2 d = directions[j] / std::hypot(directions[j].x, directions[j].y);
+            const glm::dvec2 d = unit_direction(directions[j]);
             if (std::hypot(d.x - own[i].x, d.y - own[i].y) <= 1e-6) break;
         }
         if (j == directions.size())

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include <bumpshadow/bearing.hpp>
 #include <bumpshadow/glm.hpp>
 #include <bumpshadow/horizon_map.hpp>
 #include <bumpshadow/status.hpp>
@@ -70,7 +71,7 @@ struct lobe_bearings {
     out.count = int(directions.size());
     std::array<double, most_lobe_bearings> turn;
     for (std::size_t i = 0; i < directions.size(); ++i) {
-        out.direction[i] = directions[i] / std::hypot(directions[i].x, directions[i].y);
+        out.direction[i] = unit_direction(directions[i]);
         turn[i] = std::atan2(out.direction[i].y, out.direction[i].x) / (2.0 * std::numbers::pi);
     }
     for (std::size_t i = 0; i < directions.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include <bumpshadow/bearing.hpp>
 #include <bumpshadow/executor.hpp>
 #include <bumpshadow/finite.hpp>
 #include <bumpshadow/glm.hpp>
@@ -31,8 +32,7 @@ namespace sweep_detail {
 template <bool gaps>
 void bake_near(const planes& map, glm::dvec2 texel_size, slanted way, glm::dvec2 direction, rectangle region, int begin,
                int end, float* out, std::size_t row_step) {
-    const double largest = (std::max)(std::abs(direction.x), std::abs(direction.y));
-    const glm::dvec2 unit = direction / largest / std::hypot(direction.x / largest, direction.y / largest);
+    const glm::dvec2 unit = unit_direction(direction);
     const float per_x = float(std::abs(unit.x) / texel_size.x), per_y = float(std::abs(unit.y) / texel_size.y);
     const int right = unit.x < 0.0 ? -1 : 1, down = unit.y < 0.0 ? -1 : 1;
     const std::ptrdiff_t nothing = map.extent.y * map.row_stride;
