@@ -114,8 +114,11 @@ void output_folder::remove_created() {
 output_file::output_file(std::filesystem::path target) : target_(std::move(target)), part_(target_) {
     part_ += ".part";
     handle_signals();
+    // Renaming would put a file in the place of a device.
     std::error_code ignored;
-    if (std::filesystem::is_directory(target_, ignored)) fail(reason_text(EISDIR));
+    const std::filesystem::file_status there = std::filesystem::status(target_, ignored);
+    if (std::filesystem::is_directory(there)) fail(reason_text(EISDIR));
+    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) fail("it is no file");
     // Known to the handler before it exists, so that no moment is left in which a signal leaves it behind.
     bool noted = false;
     for (std::atomic<const path_character*>& part : open_parts) {

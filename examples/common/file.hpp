@@ -56,7 +56,8 @@ private:
 // Without a commit, after any failure and on SIGINT, SIGTERM and SIGHUP, the part is removed.
 class output_file {
 public:
-    // Opens the part, so that a folder that cannot be written is known before any work. Throws failure.
+    // Opens the part, so that a folder that cannot be written is known before any work. Throws failure, also where the
+    // target is there and is no file (a folder, a device, a pipe).
     explicit output_file(std::filesystem::path target);
     ~output_file();
     output_file(const output_file&) = delete;

@@ -75,11 +75,19 @@ if [ -w /dev/full ]; then
         [ $code -eq 1 ] || fail "exit code $code, not 1: $arguments >/dev/full"
         [ "$(tr '\r' '\n' <stderr | grep -c "^$name: ")" -eq 1 ] || fail "$arguments >/dev/full: $(cat stderr)"
     done
-    # A target that is a device is not replaced by a file.
-    refuses bake 'cannot write /dev/full' $map -o /dev/full
 else
     echo "skipped: no /dev/full here"
 fi
+
+# ---- A target that is no file is not replaced by one. A pipe stands for devices, which root could lose ----
+
+mkfifo out/pipe.json out/pipe.f32 out/pipe.png
+refuses bake 'cannot write out/pipe.f32: it is no file' $map -o out/pipe.f32
+refuses shade 'cannot write out/pipe.png: it is no file' in/bumps.png -o out/pipe.png
+refuses plan 'cannot write out/pipe.json: it is no file' scene.json in/bumps.png --json out/pipe.json
+refuses benchmark 'cannot write out/pipe.json: it is no file' $map --repeats 1 --sample 1 --json out/pipe.json
+for pipe in out/pipe.*; do [ -p "$pipe" ] || fail "$pipe is no pipe any more"; done
+rm out/pipe.*
 
 # ---- A folder that may not be written ----
 
