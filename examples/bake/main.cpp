@@ -123,12 +123,21 @@ std::filesystem::path numbered(std::filesystem::path path, std::size_t number) {
     return path;
 }
 
+void refuse_input(const arguments& arguments, const std::filesystem::path& output) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(path_of(arguments.heights.path), output, ignored))
+        throw failure("cannot write " + output.string() + ": it is the height map itself");
+}
+
 // first: opened before any work, so that a folder that cannot be written is known.
-void write_textures(const std::string& output, output_kind kind, output_file& first, const encoded& map) {
+void write_textures(const arguments& arguments, output_kind kind, output_file& first, const encoded& map) {
     std::vector<std::unique_ptr<output_file>> others;
     for (std::size_t i = 0; i < map.textures.size(); ++i) {
-        if (i > 0 && kind == output_kind::dds)
-            others.push_back(std::make_unique<output_file>(numbered(path_of(output), i)));
+        if (i > 0 && kind == output_kind::dds) {
+            const std::filesystem::path path = numbered(path_of(arguments.output), i);
+            refuse_input(arguments, path);
+            others.push_back(std::make_unique<output_file>(path));
+        }
         output_file& file = i == 0 || kind == output_kind::raw ? first : *others.back();
         if (kind == output_kind::dds)
             write_dds(file, map.textures[i].view());
@@ -165,7 +174,7 @@ void bake_encoding(const arguments& arguments, output_kind kind) {
     const height_samples samples = read_heights(arguments.heights);
     output_file file(path_of(arguments.output));
     const encoded map = encode_heights(samples, arguments.heights, arguments.horizons, settings, arguments.threads);
-    write_textures(arguments.output, kind, file, map);
+    write_textures(arguments, kind, file, map);
     if (arguments.json || kind == output_kind::raw)
         std::printf("{\"width\":%d,\"height\":%d,\"method\":\"%s\",\"steps\":%d,%s}\n", map.extent.x, map.extent.y,
                     name_of(arguments.horizons.how).c_str(), arguments.horizons.options.steps, json_of(map).c_str());
@@ -186,7 +195,7 @@ void bake_planned(const arguments& arguments, output_kind kind) {
         saved->write(json_of(recipe) + "\n");
         saved->close();
     }
-    if (map) write_textures(arguments.output, kind, file, *map);
+    if (map) write_textures(arguments, kind, file, *map);
     if (saved) saved->commit();
 
     if (arguments.json || kind == output_kind::raw) {
@@ -203,9 +212,7 @@ void bake_planned(const arguments& arguments, output_kind kind) {
 
 void work(const arguments& arguments) {
     const output_kind kind = kind_of(path_of(arguments.output));
-    std::error_code ignored;
-    if (std::filesystem::equivalent(path_of(arguments.heights.path), path_of(arguments.output), ignored))
-        throw failure("cannot write " + arguments.output + ": it is the height map itself");
+    refuse_input(arguments, path_of(arguments.output));
     const bool textures = kind == output_kind::dds || kind == output_kind::raw, planned = arguments.recipe.given();
     if ((arguments.encoding_given || planned) && !textures)
         throw failure("cannot write " + arguments.output + " with " +

@@ -106,7 +106,9 @@ void work(const arguments& arguments) {
     const std::filesystem::path path = path_of(arguments.output);
     if (path.extension() != ".png" && path.extension() != ".PNG")
         throw failure("cannot write " + arguments.output + ": the extension has to be .png");
-    for (const std::string& input : {arguments.heights.path, arguments.normal, arguments.diffuse, arguments.detail}) {
+    std::vector<std::string> inputs = arguments.lightmaps;
+    inputs.insert(inputs.end(), {arguments.heights.path, arguments.normal, arguments.diffuse, arguments.detail});
+    for (const std::string& input : inputs) {
         std::error_code ignored;
         if (!input.empty() && std::filesystem::equivalent(path_of(input), path, ignored))
             throw failure("cannot write " + arguments.output + ": it is read from");

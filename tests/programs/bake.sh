@@ -169,6 +169,11 @@ refuse 1 'out/a.txt: the extension has to be .f32, .png' $map -o out/a.txt
 refuse 1 'the extension has to be .f32, .png' $map -o out/a
 refuse 1 'out/none/a.f32: No such file' $map -o out/none/a.f32
 refuse 1 'it is the height map itself' $map -o in/../in/gray8.png
+# Nor is it the second texture.
+head -c 4096 /dev/zero >in/a.1.dds
+refuse 1 'cannot write in/a.1.dds: it is the height map itself' in/a.1.dds --raw 32 32 -o in/a.dds --encoding fourier
+[ "$(bytes in/a.1.dds)" -eq 4096 ] || fail "the height map was written over"
+[ ! -e in/a.dds ] || fail "the first texture was left"
 mkdir out/folder.f32
 refuse 1 'out/folder.f32: Is a directory' $map -o out/folder.f32
 rmdir out/folder.f32

@@ -91,6 +91,10 @@ run in/rgb.png -o out/b.png --height-scale 4 --channel red --normal in/rgb.png -
 rm -f out/*
 refuse 1 'the extension has to be .png' in/block.png -o out/a.jpg
 refuse 1 'it is read from' in/block.png -o in/block.png
+cp in/rgb_of_gray.png out/light.png
+refuse 1 'out/light.png: it is read from' in/block.png -o out/light.png --encoding ssbump --lightmap in/rgb.png \
+    out/light.png in/rgb.png
+rm out/light.png
 refuse 1 'has 8 x 1 pixels, but the height map has 32 x 32' in/block.png -o out/a.png --diffuse in/rgb.png
 refuse 1 'has no three channels' in/gray8.png -o out/a.png --normal in/gray8.png
 refuse 1 'are for --encoding ssbump' in/block.png -o out/a.png --detail in/gray8.png
