@@ -38,6 +38,25 @@ void parse(CLI::App& app, [[maybe_unused]] int argc, [[maybe_unused]] char** arg
 #endif
 }
 
+// What a script whose variable is not set gives: no option is left out without a word.
+void refuse_empty(const CLI::App& app) {
+    for (const CLI::Option* const option : app.get_options())
+        for (const std::string& text : option->results())
+            if (text.empty()) throw CLI::ValidationError(option->get_name(), "'' is given, which is empty");
+}
+
+int run_work(const char* name, const std::function<void()>& work) {
+    try {
+        work();
+        return 0;
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "%s: not enough memory\n", name);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s: %s\n", name, error.what());
+    }
+    return 1;
+}
+
 // The whole text as a number, or false.
 bool to_number(const std::string& text, double& number) {
     char* end = nullptr;
@@ -130,20 +149,16 @@ int run_program(CLI::App& app, int argc, char** argv, const std::function<void()
     const char* name = app.get_name().c_str();
     try {
         parse(app, argc, argv);
+        refuse_empty(app);
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
+        if (error.get_exit_code() == 0) {
+            app.exit(error);
+            return run_work(name, flush_stdout);
+        }
         std::fprintf(stderr, "%s: %s (%s --help lists the options)\n", name, error.what(), name);
         return 2;
     }
-    try {
-        work();
-        return 0;
-    } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "%s: not enough memory\n", name);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s: %s\n", name, error.what());
-    }
-    return 1;
+    return run_work(name, work);
 }
 
 void flush_stdout() {

@@ -153,6 +153,12 @@ refuse 2 "--channel: gold is none of luminance" $map -o out/a.f32 --channel gold
 refuse 1 "no alpha channel" $map -o out/a.f32 --channel alpha
 refuse 1 "--no-data" $map -o out/a.f32 --no-data 256
 refuse 1 "--no-data" $map -o out/a.f32 --no-data 1.5
+# Empty, as of a script's variable that is not set: not the same as no option.
+refuse 2 "HEIGHTS: '' is given" '' -o out/a.f32
+refuse 2 "--output: '' is given" $map -o ''
+refuse 2 "--plan: '' is given" $map -o out/a.dds --plan ''
+refuse 2 "--recipe: '' is given" $map -o out/a.dds --recipe ''
+refuse 2 "--save-recipe: '' is given" $map -o out/a.dds --plan scene.json --save-recipe ''
 
 refuse 2 "--raw: 0 is given" in/column.f32 -o out/a.f32 --raw 0 4
 refuse 2 "--raw: -1 is given" in/column.f32 -o out/a.f32 --raw -1 4
@@ -195,6 +201,7 @@ if [ -n "$posix" ]; then
     if [ -w /dev/full ]; then
         "$program" $map -o out/a.f32 >/dev/full 2>stderr && fail "standard output was full and nobody noticed"
         rm -f out/a.f32
+        "$program" --help >/dev/full 2>stderr && fail "--help: standard output was full and nobody noticed"
     fi
 
     # Ended from outside in the middle of the work.
