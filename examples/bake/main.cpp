@@ -28,6 +28,7 @@
 #include "common/plan_json.hpp"
 #include "common/progress.hpp"
 #include "common/recipe.hpp"
+#include "common/report_text.hpp"
 
 namespace {
 
@@ -168,7 +169,8 @@ void print_line(const arguments& arguments, const encoded& map, const char* name
 }
 
 void bake_encoding(const arguments& arguments, output_kind kind) {
-    if (arguments.phase) throw failure("--phase: slices of a texture start at 0");
+    if (arguments.phase)
+        throw failure("--phase " + format("%g", *arguments.phase) + " is given, but slices of a texture start at 0");
     encoding_settings settings = arguments.encoding;
     settings.bearings = arguments.bearings;
     const height_samples samples = read_heights(arguments.heights);

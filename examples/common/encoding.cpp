@@ -230,7 +230,8 @@ struct job {
 
     void sine() const {
         bs::sine_layers e;
-        if (settings.bearings.value_or(8) != 8) throw failure("--bearings: sine layers have 8");
+        if (settings.bearings.value_or(8) != 8)
+            throw failure("--bearings " + std::to_string(*settings.bearings) + " is given, but sine layers have 8");
         const bs::slice_set slices{8, 0.0, bs::bearing_function::exact};
         horizons h = settings.published ? bake_evenly(bs::sine_layers_directions) : bake_for(slices);
         e.scale = scale_for(h, bs::quantity::sine, settings.stored.value_or(bs::quantity::sine) != bs::quantity::slope);

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "common/image.hpp"
+#include "common/report_text.hpp"
 
 namespace examples {
 namespace {
@@ -89,7 +90,8 @@ height_samples read_heights(const height_source& source) {
                 constexpr Sample largest = std::numeric_limits<Sample>::max();
                 if (source.no_data && !(*source.no_data >= 0.0 && *source.no_data <= double(largest) &&
                                         *source.no_data == std::floor(*source.no_data)))
-                    refuse(source, "--no-data has to be one of its sample values, 0 to " + std::to_string(largest));
+                    refuse(source, format("--no-data %g is given, but it has to be one of its sample values, 0 to %d",
+                                          *source.no_data, int(largest)));
             } else {
                 bumpshadow::height_map<Sample> map = bumpshadow::tight_height_map(samples.data(), heights.extent);
                 if (source.no_data) map.no_data = static_cast<Sample>(*source.no_data);

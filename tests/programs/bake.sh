@@ -151,8 +151,9 @@ refuse 2 "--edge: wrap is none of repeat" $map -o out/a.f32 --edge wrap
 refuse 2 "--method: magic is none of cascade" $map -o out/a.f32 --method magic
 refuse 2 "--channel: gold is none of luminance" $map -o out/a.f32 --channel gold
 refuse 1 "no alpha channel" $map -o out/a.f32 --channel alpha
-refuse 1 "--no-data" $map -o out/a.f32 --no-data 256
-refuse 1 "--no-data" $map -o out/a.f32 --no-data 1.5
+refuse 1 "--no-data 256 is given" $map -o out/a.f32 --no-data 256
+refuse 1 "--no-data 1.5 is given" $map -o out/a.f32 --no-data 1.5
+refuse 1 "--phase 0.25 is given" $map -o out/a.dds --encoding tangent --phase 0.25
 # Empty, as of a script's variable that is not set: not the same as no option.
 refuse 2 "HEIGHTS: '' is given" '' -o out/a.f32
 refuse 2 "--output: '' is given" $map -o ''

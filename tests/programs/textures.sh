@@ -148,7 +148,7 @@ refuse 1 'arc is 0 but has to be positive' in/block.png -o out/a.dds --arc 10 10
 refuse 2 '--arc' in/block.png -o out/a.dds --arc 0 inf
 refuse 2 '--arc' in/block.png -o out/a.dds --arc 10
 refuse 1 'slices is 6 but has to be a multiple of 4' in/block.png -o out/a.dds --encoding layers --bearings 6
-refuse 1 '--bearings: sine layers have 8' in/block.png -o out/a.dds --encoding sine --bearings 4
+refuse 1 '--bearings 4 is given, but sine layers have 8' in/block.png -o out/a.dds --encoding sine --bearings 4
 refuse 1 '--bits bc4 is not for' in/block.png -o out/a.dds --encoding layers --bits bc4
 refuse 2 '--coefficients' in/block.png -o out/a.dds --encoding fourier --coefficients 4
 refuse 2 '--max-slope' in/block.png -o out/a.dds --max-slope 0
