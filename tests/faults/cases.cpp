@@ -78,29 +78,42 @@ horizon_map view_of(outputs& o, glm::ivec2 size, int bearings, std::size_t offse
             .bearings = bearings};
 }
 
-// bake(heights, directions, out, options, executor)
+// bake(heights, directions, out, options, executor), of a part with the distances behind the slopes.
 template <class Bake>
-producer baker(const char* name, std::size_t scratch, Bake bake) {
-    return {name, floats(required_size(extent, int(ways().size()))), scratch,
-            [bake](outputs& o, const from& f, const any_executor& execute) {
-                return bake(field().view(), ways(), view_of(o, extent, int(ways().size())), options_of<bake_options>(f),
-                            execute);
+producer baker(const char* name, std::size_t scratch, const bake_options& how, Bake bake) {
+    const bool part = !how.region.empty();
+    const glm::ivec2 texels = region_or_all(how.region, extent).extent;
+    const int count = int(ways().size());
+    const std::size_t size = required_size(texels, count);
+    return {name, floats(part ? 2 * size : size), scratch, [=](outputs& o, const from& f, const any_executor& execute) {
+                bake_options options = how;
+                options.scratch = f.scratch, options.memory = f.memory;
+                if (part) options.distances = view_of(o, texels, count, size);
+                return bake(field().view(part ? edge_mode::open : edge_mode::repeat), ways(), view_of(o, texels, count),
+                            options, execute);
             }};
 }
 
 void add_bakers(std::vector<producer>& all) {
     const auto map = field().view();
+    bake_options how;
     const auto each = [&](const char* name, std::size_t scratch, auto bake) {
-        all.push_back(baker(name, scratch, bake));
+        all.push_back(baker(name, scratch, how, bake));
     };
-    each("bake_exact", exact_scratch_size(map), [](const auto&... a) { return bake_exact(a...); });
-    each("bake_cascade", cascade_scratch_size(map, {}, width), [](const auto&... a) { return bake_cascade(a...); });
+    const auto exact = [](const auto&... a) { return bake_exact(a...); };
+    const auto cascade = [](const auto&... a) { return bake_cascade(a...); };
+    each("bake_exact", exact_scratch_size(map), exact);
+    each("bake_cascade", cascade_scratch_size(map, {}, width), cascade);
     each("bake_sweep", sweep_scratch_size(map, ways(), {}, any_executor{}),
          [](const auto&... a) { return bake_sweep(a...); });
     each("bake_sweep_classic", sweep_classic_scratch_size(map, ways(), {}, any_executor{}),
          [](const auto&... a) { return bake_sweep_classic(a...); });
     each("bake_neighborhood", neighborhood_scratch_size(map, ways()),
          [](const auto&... a) { return bake_neighborhood(a...); });
+    // On a hollow base.
+    how.steps = 40, how.radius = 9.0, how.curvature = {-0.01, -0.02}, how.region = {{5, 3}, {17, 21}};
+    each("bake_exact, of a part", exact_scratch_size(map, ways(), how), exact);
+    each("bake_cascade, of a part", cascade_scratch_size(map, how, width), cascade);
 }
 
 // pack(encoding, options, textures, executor), with the bytes of all textures one after the other.
@@ -135,6 +148,11 @@ void add_packers(std::vector<producer>& all) {
     };
     add("pack_tangent_volume", volume, 1, 8, pack_volume);
     add("pack_tangent_volume, mips", volume, 3, 8, pack_volume);
+    add("pack_tangent_volume, least error of the elevation", volume, 3, 8,
+        [pack_volume](const auto& encoding, auto options, const auto& out, const auto& execute) {
+            options.fit = slice_fit::least_angle;
+            return pack_volume(encoding, options, out, execute);
+        });
     tangent_volume blocks = volume;
     blocks.format = texel_format::bc4;
     add("pack_tangent_volume, bc4", blocks, 3, 8, pack_volume);
@@ -171,6 +189,11 @@ void add_packers(std::vector<producer>& all) {
                              return pack_ssbump(levels()[0], around(), normals, encoding, out[0], execute);
                          }));
     all.back().memory = false;
+    all.push_back(packer("pack_ssbump of normals, mips", ssbump{.occlusion = mask_occlusion::none}, 3, 0,
+                         [](const auto& encoding, const auto&, const auto& out, const auto& execute) {
+                             return pack_ssbump(normals, encoding, out[0], execute);
+                         }));
+    all.back().memory = false;
     const texture_layout flat{.format = texel_format::r8, .extent = extent, .mips = 3};
     all.push_back({"pack_emboss, mips", bytes(flat.required_size()), 0,
                    [flat](outputs& o, const from&, const any_executor& execute) {
@@ -190,17 +213,14 @@ void add_mips(std::vector<producer>& all) {
     const std::size_t size = required_size(extent / 2, 32) + required_size(extent / 4, 32);
     static constexpr horizon_scale scale{.max_slope = 2.0f};
     static const fourier series{.coefficients = 5, .scale = scale};
-    all.push_back({"make_mips", floats(size), mip_scratch_size(extent, 32, width),
-                   [](outputs& o, const from& f, const any_executor& execute) {
-                       return make_mips(levels()[0], scale, mips_in(o), options_of<mip_options>(f), execute);
-                   },
-                   true, false});
-    all.push_back({"make_mips, averages", floats(size), mip_scratch_size(extent, 32, width),
-                   [](outputs& o, const from& f, const any_executor& execute) {
-                       auto options = options_of<mip_options>(f);
-                       options.keep_distribution = false;
-                       return make_mips(levels()[0], scale, mips_in(o), options, execute);
-                   }});
+    for (const bool keep : {true, false})
+        all.push_back({keep ? "make_mips" : "make_mips, averages", floats(size), mip_scratch_size(extent, 32, width),
+                       [keep](outputs& o, const from& f, const any_executor& execute) {
+                           auto options = options_of<mip_options>(f);
+                           options.keep_distribution = keep;
+                           return make_mips(levels()[0], scale, mips_in(o), options, execute);
+                       },
+                       true, !keep});
     all.push_back({"make_fourier_mips", floats(size), fourier_mip_scratch_size(extent, 32, series, width),
                    [](outputs& o, const from& f, const any_executor& execute) {
                        return make_fourier_mips(levels()[0], around(), series, mips_in(o), options_of<mip_options>(f),
@@ -265,6 +285,13 @@ void add_measures(std::vector<producer>& all) {
                            b{.bytes = gray, .extent = extent, .channels = 3};
                        return flip(a, b, o.numbers, options_of<flip_options>(f), execute);
                    }});
+    static std::vector<float> linear(required_size(extent, 3), 0.25f), darker(linear.size(), 0.0f);
+    all.push_back({"flip of linear light", floats(required_size(extent, 1)), flip_scratch_size(extent, {}, width),
+                   [](outputs& o, const from& f, const any_executor& execute) {
+                       return flip(rgb_image{.values = linear, .extent = extent},
+                                   rgb_image{.values = darker, .extent = extent}, o.numbers,
+                                   options_of<flip_options>(f), execute);
+                   }});
 }
 
 // Normals and pictures, which take no memory.
@@ -274,8 +301,7 @@ void add_pictures(std::vector<producer>& all) {
         static_cast<void>(bake_normals(field().view(), normal_map{.values = values, .extent = extent}));
         return values;
     }();
-    // Views of normals are of floats that may be written; these are not.
-    static std::vector<float> storage = bumpy;
+    static std::vector<float> storage = bumpy;  // views of normals are of floats that may be written
     static const normal_map normals{.values = storage, .extent = extent};
     all.push_back({"bake_normals", floats(required_size(extent, 3)), 0,
                    [](outputs& o, const from&, const any_executor& execute) {
@@ -295,7 +321,6 @@ void add_pictures(std::vector<producer>& all) {
                        return decode_normals(picture, {}, normal_map{.values = o.numbers, .extent = extent}, execute);
                    },
                    false});
-    // Row by row, and pixel by pixel.
     static const tangent_volume volume{.slices = {.count = 8}, .scale = {.max_slope = 2.0f}};
     static const texture_layout layout = layout_of(volume, extent);
     static const std::vector<std::byte> slices(layout.required_size(), std::byte(50));
