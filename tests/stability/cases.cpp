@@ -72,7 +72,7 @@ stiff_case plain(std::string name, Height height, std::vector<exception> excepti
 }
 
 const std::string narrow = "what occludes is narrower than the cells that look for it";
-const std::string between = "hulls stand on lines that pass beside what occludes";
+const std::string between = "what occludes lies between the points that hulls stand on";
 
 std::vector<stiff_case> shapes() {
     std::vector<stiff_case> all;
