@@ -102,7 +102,9 @@ private:
         result r;
         if (!s) {
             r.refused = s.message().c_str();
-            r.for_a_reason = s.code() == bs::error::not_supported || which == neighborhood;
+            const bool base = map_.options.curvature != glm::dvec2(0.0) || bs::is_finite(map_.options.radius);
+            const bool a_sweep = which == sweep || which == sweep_classic;
+            r.for_a_reason = which == neighborhood ? base : a_sweep && (base || bs::finite_math_only);
             return r;
         }
         // Every texel, not only those of the sample.
