@@ -108,6 +108,7 @@ public:
                        1.0 / 131070.0);
         look_at_slices("slice layers", bs::slice_layers{.slices = slices(), .scale = scale()}, 1.0 / 510.0);
         look_at_sine_layers();
+        look_at_fits();
         look_at_fourier();
         look_at_masks(normals);
         look_at_emboss();
@@ -215,6 +216,53 @@ private:
             bs::pack_sine_layers(horizons_, directions_, encoding, {.fit = bs::slice_fit::point}, std::span(&out, 1));
         if (s) look_at_decoded(encoding, bs::const_texture{bytes, layout}, 2);
         check_.line("sine layers", 1.0 / 510.0 + of_sampling, s);
+    }
+
+    // Eight slices from sixteen directions, every other one of which lies in the middle between two: the normal
+    // equations of least squares are x[i-1] / 4 + 3 x[i] / 2 + x[i+1] / 4 = d[2i] + (d[2i-1] + d[2i+1]) / 2.
+    [[nodiscard]] std::vector<double> fitted(const bs::horizon_scale& scale, glm::ivec2 p) const {
+        constexpr std::size_t count = bearings / 2;
+        std::vector<double> data, right, x(count);
+        for (int i = 0; i < bearings; ++i) data.push_back(stored(scale, horizons_.row(i, p.y)[p.x]));
+        for (std::size_t i = 0; i < count; ++i)
+            right.push_back(data[2 * i] + 0.5 * (data[2 * i + 1] + data[(2 * i + bearings - 1) % bearings]));
+        // Each time a third of the error is left.
+        for (int times = 0; times < 30; ++times) {
+            const std::vector<double> before = x;
+            for (std::size_t i = 0; i < count; ++i)
+                x[i] = (right[i] - 0.25 * (before[(i + 1) % count] + before[(i + count - 1) % count])) / 1.5;
+        }
+        for (double& value : x) value = std::clamp(value, 0.0, 1.0);
+        return x;
+    }
+
+    void look_at_fits() {
+        bs::tangent_volume encoding{.slices = slices(), .scale = scale()};
+        encoding.slices.count = bearings / 2;
+        const bs::texture_layout layout = layout_of(encoding, map_.extent);
+        std::vector<std::byte> bytes(layout.required_size());
+        const auto pack = [&](bs::slice_fit fit) {
+            return bs::pack_tangent_volume(horizons_, directions_, encoding, {.fit = fit}, {bytes, layout});
+        };
+        bs::status s = pack(bs::slice_fit::least_squares);
+        for (const glm::ivec2 p : texels_) {
+            const std::vector<double> wanted = fitted(encoding.scale, p);
+            for (int i = 0; s && i < bearings / 2; ++i)
+                check_.differs(std::abs(double(bs::fetch({bytes, layout}, {p, i}).x) - wanted[std::size_t(i)]));
+        }
+        if (s) look_at_factors(encoding, bs::const_texture{bytes, layout});
+        check_.line("tangent volume, fitted", 1.0 / 510.0 + 1e-5, s);
+        s = pack(bs::slice_fit::least_angle);
+        if (s) look_at_factors(encoding, bs::const_texture{bytes, layout});
+        check_.line("tangent volume, fitted by angle", 0.0, s);
+
+        const bs::slice_layers overlapping{
+            .slices = {.count = 12}, .scale = scale(), .grouping = bs::slice_grouping::overlapping};
+        const bs::texture_layout layers = layout_of(overlapping, map_.extent);
+        std::vector<std::byte> grouped(layers.required_size());
+        s = bs::pack_slice_layers(horizons_, directions_, overlapping, {}, {grouped, layers});
+        if (s) look_at_factors(overlapping, bs::const_texture{grouped, layers});
+        check_.line("slice layers that overlap, fitted", 0.0, s);
     }
 
     // A series does not go through its samples, so here it is enough that there is one.
