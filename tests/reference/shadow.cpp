@@ -231,7 +231,6 @@ TEST_CASE("light of every length and direction, with every encoding") {
     }
 }
 
-// No encoder takes a max_slope of 0; a program that lets it be set meets one all the same.
 TEST_CASE("along the turn and upwards the factor is continuous, with every encoding") {
     // Horizons of 20 to 40 degrees, steepest towards +y, where no slice lies.
     const auto horizons = [](int, int, double turn) {
@@ -267,6 +266,7 @@ TEST_CASE("along the turn and upwards the factor is continuous, with every encod
     }
 }
 
+// No encoder takes a max_slope of 0; a program that lets it be set meets one all the same.
 TEST_CASE("a max_slope that is next to nothing, and 0") {
     const horizons map({4, 4}, 12, bearing_function::cubic, [](int, int, double) { return 1.0; });
     tangent_volume e;
