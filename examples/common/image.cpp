@@ -63,6 +63,21 @@ const char* png_defect(bytes file) {
     return "broken PNG: the file ends too early";
 }
 
+// stb_image takes colors beyond the end of a palette from memory that was never written. Black ones follow instead; it
+// does not look at the checksum. The file has no defect.
+void lengthen_palette(std::vector<unsigned char>& file) {
+    constexpr std::size_t most = 3 * 256;
+    for (std::size_t at = png_signature.size(); std::memcmp(file.data() + at + 4, "IEND", 4) != 0;) {
+        const std::size_t length = big_endian(file, at);
+        if (std::memcmp(file.data() + at + 4, "PLTE", 4) == 0 && length < most && length % 3 == 0) {
+            file.insert(file.begin() + std::ptrdiff_t(at + 8 + length), most - length, 0);
+            file[at + 2] = most >> 8, file[at + 3] = most & 255;
+            return;
+        }
+        at += 12 + length;
+    }
+}
+
 // stb_image fills the rest of a cut JPEG with gray. The end marker has to follow the last start of a scan.
 const char* jpeg_defect(bytes file) {
     constexpr std::array<unsigned char, 2> scan{0xff, 0xda}, end{0xff, 0xd9};
@@ -103,12 +118,13 @@ struct collected {
 }  // namespace
 
 std::variant<image8, image16> read_image(const std::filesystem::path& path) {
-    const std::vector<unsigned char> file = read_file(path);
+    std::vector<unsigned char> file = read_file(path);
     const auto refuse = [&](const std::string& why) { throw failure("cannot read " + path.string() + ": " + why); };
     if (file.empty()) refuse("the file is empty");
     if (file.size() > std::size_t(INT_MAX)) refuse("larger than 2 GiB");
     if (!is_png(file) && !is_jpeg(file)) refuse("neither PNG nor JPEG");
     if (const char* defect = is_png(file) ? png_defect(file) : jpeg_defect(file)) refuse(defect);
+    if (is_png(file)) lengthen_palette(file);
     if (stbi_is_16_bit_from_memory(file.data(), int(file.size()))) return decode<std::uint16_t>(file, path);
     return decode<std::uint8_t>(file, path);
 }

@@ -32,6 +32,16 @@ floats out/a.f32 $step $flat
 run in/rgb_of_gray.png -o out/a.f32 $exact
 floats out/a.f32 $step $flat
 
+# A palette of two colors, and a ninth one in the picture, which is black.
+{
+    printf '\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\010\000\000\000\001\010'
+    printf '\003\000\000\000\324\336\037\161\000\000\000\006\120\114\124\105\200\200\200\377\377\377\347\326\215'
+    printf '\254\000\000\000\016\111\104\101\124\170\234\143\340\004\002\106\040\000\000\000\375\000\051\130\314'
+    printf '\213\076\000\000\000\000\111\105\116\104\256\102\140\202'
+} >in/palette.png
+run in/palette.png -o out/a.f32 $exact
+floats out/a.f32 $step $flat
+
 # Channels. Luminance: 0.2126 red + 0.7152 green + 0.0722 blue.
 run in/rgb.png -o out/a.f32 $exact --channel red
 floats out/a.f32 $step $flat
