@@ -78,11 +78,34 @@ void lengthen_palette(std::vector<unsigned char>& file) {
     }
 }
 
+// stb_image 2.27 writes beyond the end of Huffman tables that say that they have more than 256 codes.
+bool jpeg_tables_fit(bytes file) {
+    for (std::size_t at = 2; at + 4 <= file.size();) {
+        const unsigned char marker = file[at + 1];
+        // Bytes of a scan, fill bytes, and markers that nothing follows.
+        if (file[at] != 0xff || marker <= 0x01 || (marker >= 0xd0 && marker <= 0xd9) || marker == 0xff) {
+            ++at;
+            continue;
+        }
+        const std::size_t length = std::size_t(file[at + 2]) << 8 | file[at + 3], end = at + 2 + length;
+        if (marker == 0xc4)
+            for (std::size_t table = at + 4; table < end && table + 17 <= file.size();) {
+                std::size_t codes = 0;
+                for (std::size_t bits = 1; bits <= 16; ++bits) codes += file[table + bits];
+                if (codes > 256) return false;
+                table += 17 + codes;
+            }
+        at = end;
+    }
+    return true;
+}
+
 // stb_image fills the rest of a cut JPEG with gray. The end marker has to follow the last start of a scan.
 const char* jpeg_defect(bytes file) {
     constexpr std::array<unsigned char, 2> scan{0xff, 0xda}, end{0xff, 0xd9};
     const auto last_scan = std::find_end(file.begin(), file.end(), scan.begin(), scan.end());
     if (last_scan == file.end()) return "broken JPEG: no image data";
+    if (!jpeg_tables_fit(file)) return "broken JPEG: a table of more than 256 codes";
     return std::search(last_scan, file.end(), end.begin(), end.end()) == file.end()
                ? "broken JPEG: the file ends too early"
                : nullptr;

@@ -134,6 +134,9 @@ refuse 1 'in/text.png: neither PNG nor JPEG' in/text.png -o out/a.f32
 refuse 1 'in/cut.png: broken PNG: the file ends too early' in/cut.png -o out/a.f32
 refuse 1 'in/flipped.png: broken PNG: wrong checksum' in/flipped.png -o out/a.f32
 refuse 1 'in/no_width.png: broken' in/no_width.png -o out/a.f32
+printf '\377\330\377\304\000\023\000\377\377\377\377\377\377\377\377' >in/codes.jpg
+printf '\377\377\377\377\377\377\377\377\377\332\377\331' >>in/codes.jpg
+refuse 1 'in/codes.jpg: broken JPEG: a table of more than 256 codes' in/codes.jpg -o out/a.f32
 refuse 1 'in/cut.jpg: broken JPEG: the file ends too early' in/cut.jpg -o out/a.f32
 
 refuse 2 "--texel-size: 0 is given" $map -o out/a.f32 --texel-size 0 1
