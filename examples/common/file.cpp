@@ -111,11 +111,16 @@ void output_folder::remove_created() {
     for (const std::filesystem::path& p : created_) std::filesystem::remove(p, ignored);
 }
 
-output_file::output_file(std::filesystem::path target) : target_(std::move(target)), part_(target_) {
+output_file::output_file(std::filesystem::path target) : target_(std::move(target)), file_behind_(target_) {
+    std::error_code ignored, error;
+    if (std::filesystem::is_symlink(target_, ignored)) {
+        file_behind_ = std::filesystem::canonical(target_, error);
+        if (error) fail(error.message());
+    }
+    part_ = file_behind_;
     part_ += ".part";
     handle_signals();
     // Renaming would put a file in the place of a device.
-    std::error_code ignored;
     const std::filesystem::file_status there = std::filesystem::status(target_, ignored);
     if (std::filesystem::is_directory(there)) fail(reason_text(EISDIR));
     if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) fail("it is no file");
@@ -156,7 +161,7 @@ void output_file::close() {
 void output_file::commit() {
     close();
     std::error_code error;
-    std::filesystem::rename(part_, target_, error);
+    std::filesystem::rename(part_, file_behind_, error);
     if (error) fail(error.message());
     forget();
     part_.clear();

@@ -52,7 +52,8 @@ private:
     std::vector<std::filesystem::path> created_;  // deepest first
 };
 
-// A file that exists whole or not at all: bytes go to `target` + ".part", which commit() gives its name.
+// A file that exists whole or not at all: bytes go to `target` + ".part", which commit() gives its name. A link stays,
+// and the file that it leads to is meant, which has to be there.
 // Without a commit, after any failure and on SIGINT, SIGTERM and SIGHUP, the part is removed.
 class output_file {
 public:
@@ -76,7 +77,7 @@ private:
     [[noreturn]] void fail(const std::string& reason) const;
     void forget() noexcept;
 
-    std::filesystem::path target_, part_;
+    std::filesystem::path target_, file_behind_, part_;
     std::FILE* file_ = nullptr;
 };
 

@@ -79,6 +79,17 @@ else
     echo "skipped: no /dev/full here"
 fi
 
+# ---- A link is not replaced by a file: what it leads to is written ----
+
+ln -s real.f32 out/link.f32
+refuses bake 'cannot write out/link.f32: No such file' $map -o out/link.f32
+echo before >out/real.f32
+"$programs/bake" $map -o out/link.f32 >/dev/null || fail 'bake through a link'
+"$programs/bake" $map -o out/straight.f32 >/dev/null || fail bake
+[ -L out/link.f32 ] || fail 'a link was replaced'
+cmp out/real.f32 out/straight.f32 || fail 'other bytes through a link'
+rm out/link.f32 out/real.f32 out/straight.f32
+
 # ---- A target that is no file is not replaced by one. A pipe stands for devices, which root could lose ----
 
 mkfifo out/pipe.json out/pipe.f32 out/pipe.png
