@@ -124,10 +124,8 @@ std::filesystem::path numbered(std::filesystem::path path, std::size_t number) {
     return path;
 }
 
-void refuse_input(const arguments& arguments, const std::filesystem::path& output) {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(path_of(arguments.heights.path), output, ignored))
-        throw failure("cannot write " + output.string() + ": it is the height map itself");
+std::vector<std::string> inputs_of(const arguments& arguments) {
+    return {arguments.heights.path, arguments.recipe.plan, arguments.recipe.recipe};
 }
 
 // first: opened before any work, so that a folder that cannot be written is known.
@@ -136,7 +134,7 @@ void write_textures(const arguments& arguments, output_kind kind, output_file& f
     for (std::size_t i = 0; i < map.textures.size(); ++i) {
         if (i > 0 && kind == output_kind::dds) {
             const std::filesystem::path path = numbered(path_of(arguments.output), i);
-            refuse_input(arguments, path);
+            refuse_inputs(path, inputs_of(arguments));
             others.push_back(std::make_unique<output_file>(path));
         }
         output_file& file = i == 0 || kind == output_kind::raw ? first : *others.back();
@@ -214,7 +212,7 @@ void bake_planned(const arguments& arguments, output_kind kind) {
 
 void work(const arguments& arguments) {
     const output_kind kind = kind_of(path_of(arguments.output));
-    refuse_input(arguments, path_of(arguments.output));
+    refuse_inputs(path_of(arguments.output), inputs_of(arguments));
     const bool textures = kind == output_kind::dds || kind == output_kind::raw, planned = arguments.recipe.given();
     if ((arguments.encoding_given || planned) && !textures)
         throw failure("cannot write " + arguments.output + " with " +

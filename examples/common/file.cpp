@@ -91,6 +91,14 @@ std::vector<unsigned char> read_file(const std::filesystem::path& path) {
     return bytes;
 }
 
+void refuse_inputs(const std::filesystem::path& output, const std::vector<std::string>& inputs) {
+    for (const std::string& input : inputs) {
+        std::error_code ignored;
+        if (!input.empty() && std::filesystem::equivalent(path_of(input), output, ignored))
+            throw failure("cannot write " + output.string() + ": it is read from");
+    }
+}
+
 output_folder::output_folder(const std::filesystem::path& path) {
     std::error_code error;
     std::filesystem::path whole = std::filesystem::absolute(path, error).lexically_normal();

@@ -36,6 +36,9 @@ inline void require(const bumpshadow::status& status) {
 // All bytes of a file. Throws failure.
 [[nodiscard]] std::vector<unsigned char> read_file(const std::filesystem::path& path);
 
+// Throws failure where an output is one of the files that are read. Empty inputs name none.
+void refuse_inputs(const std::filesystem::path& output, const std::vector<std::string>& inputs);
+
 // A folder and its missing parents; what was created goes again, as far as it is empty, unless kept. Throws failure.
 class output_folder {
 public:

@@ -151,9 +151,7 @@ void check_recipe_options(const CLI::App& app, const recipe_settings& settings, 
                       ", which decides how horizons are baked and stored");
     }
     if (settings.save.empty()) return;
-    for (const std::string& input : {heights, settings.plan, settings.recipe})
-        if (!input.empty() && same_file(input, settings.save))
-            throw failure("cannot write " + settings.save + ": it is read from");
+    refuse_inputs(path_of(settings.save), {heights, settings.plan, settings.recipe});
     if (same_file(output, settings.save))
         throw failure("cannot write " + settings.save + ": it is what --output names");
 }

@@ -43,11 +43,7 @@ std::string report_of(const planned_map& one, bool measured) {
 void plan_all(const arguments& arguments) {
     std::vector<std::string> inputs = arguments.heights;
     inputs.push_back(arguments.scene);
-    for (const std::string& path : inputs) {
-        std::error_code ignored;
-        if (!arguments.json.empty() && std::filesystem::equivalent(path_of(path), path_of(arguments.json), ignored))
-            throw failure("cannot write " + arguments.json + ": it is read from");
-    }
+    refuse_inputs(path_of(arguments.json), inputs);
     const planned_scene scene = read_scene(path_of(arguments.scene));
     std::optional<output_file> file;
     if (!arguments.json.empty()) file.emplace(path_of(arguments.json));

@@ -107,12 +107,9 @@ void work(const arguments& arguments) {
     if (path.extension() != ".png" && path.extension() != ".PNG")
         throw failure("cannot write " + arguments.output + ": the extension has to be .png");
     std::vector<std::string> inputs = arguments.lightmaps;
-    inputs.insert(inputs.end(), {arguments.heights.path, arguments.normal, arguments.diffuse, arguments.detail});
-    for (const std::string& input : inputs) {
-        std::error_code ignored;
-        if (!input.empty() && std::filesystem::equivalent(path_of(input), path, ignored))
-            throw failure("cannot write " + arguments.output + ": it is read from");
-    }
+    inputs.insert(inputs.end(), {arguments.heights.path, arguments.normal, arguments.diffuse, arguments.detail,
+                                 arguments.recipe.plan, arguments.recipe.recipe});
+    refuse_inputs(path, inputs);
     encoding_settings settings = arguments.encoding;
     settings.bearings = arguments.bearings;
     if ((!arguments.lightmaps.empty() || !arguments.detail.empty()) && settings.kind != encoding_kind::ssbump)

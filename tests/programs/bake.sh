@@ -188,10 +188,10 @@ rm -f out/a.f32
 refuse 1 'out/a.txt: the extension has to be .f32, .png' $map -o out/a.txt
 refuse 1 'the extension has to be .f32, .png' $map -o out/a
 refuse 1 'out/none/a.f32: No such file' $map -o out/none/a.f32
-refuse 1 'it is the height map itself' $map -o in/../in/gray8.png
+refuse 1 'it is read from' $map -o in/../in/gray8.png
 # Nor is it the second texture.
 head -c 4096 /dev/zero >in/a.1.dds
-refuse 1 'cannot write in/a.1.dds: it is the height map itself' in/a.1.dds --raw 32 32 -o in/a.dds --encoding fourier
+refuse 1 'cannot write in/a.1.dds: it is read from' in/a.1.dds --raw 32 32 -o in/a.dds --encoding fourier
 [ "$(bytes in/a.1.dds)" -eq 4096 ] || fail "the height map was written over"
 [ ! -e in/a.dds ] || fail "the first texture was left"
 mkdir out/folder.f32

@@ -188,6 +188,10 @@ refuse 1 '--save-recipe out/r.json is given, but neither' in/hill.png -o out/a.d
 refuse 1 'the extension has to be .dds or .raw' in/hill.png -o out/a.f32 --plan scene.json
 refuse 1 'scene.json: it is read from' in/hill.png -o out/a.dds --plan scene.json --save-recipe scene.json
 refuse 1 'in/hill.png: it is read from' in/hill.png -o out/a.dds --plan scene.json --save-recipe in/hill.png
+cp scene.json in/scene.dds
+refuse 1 'in/scene.dds: it is read from' in/hill.png -o in/scene.dds --plan in/scene.dds
+refuse 1 'in/scene.dds: it is read from' in/hill.png -o in/scene.dds --recipe in/scene.dds
+rm in/scene.dds
 refuse 1 'out/a.dds: it is what --output names' in/hill.png -o out/a.dds --plan scene.json --save-recipe out/a.dds
 refuse 1 'nowhere' in/hill.png -o out/a.dds --plan scene.json --save-recipe nowhere/r.json
 refuse 1 'missing.json' in/hill.png -o out/a.dds --plan missing.json
